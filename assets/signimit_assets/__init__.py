@@ -1,0 +1,1 @@
+"""Files of the project: the MJCF scene and the built-in strokes. Imports nothing."""

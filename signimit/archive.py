@@ -1,0 +1,119 @@
+"""Files of named arrays: ``.npz`` without pickles, written whole or not at all, with a format version."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.exceptions import FileFormatError
+
+MAX_BYTES = 4 * 2**30  # an archive that unpacks to more is taken for hostile
+_HEADER = "signimit"
+
+
+class Archive(NamedTuple):
+    """What a file holds: arrays by name, and a small JSON object."""
+
+    arrays: dict[str, NDArray[Any]]
+    meta: dict[str, Any]
+
+
+def write_archive(
+    path: str | os.PathLike[str],
+    kind: str,
+    version: int,
+    arrays: Mapping[str, NDArray[Any]],
+    meta: Mapping[str, Any] | None = None,
+) -> None:
+    """Write arrays beside ``path``, then rename: a reader sees the old file or the new one.
+
+    The same arrays give the same bytes (zip entries carry a fixed date).
+
+    Args:
+        path: File to make or replace; missing folders are not made.
+        kind: What the file is, checked by `read_archive`.
+        version: Version of that kind's layout.
+        arrays: Arrays by name; object arrays are refused by numpy.
+        meta: Anything JSON can say.
+    """
+    target = Path(path)
+    header = json.dumps({"kind": kind, "version": version, "meta": dict(meta or {})}, sort_keys=True)
+    entries = {_HEADER: np.array(header), **arrays}
+    handle, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part")
+    try:
+        with os.fdopen(handle, "wb") as file, zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+            for name, array in entries.items():
+                info = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+                info.compress_type = zipfile.ZIP_DEFLATED
+                with archive.open(info, "w", force_zip64=True) as member:
+                    np.lib.format.write_array(member, np.asanyarray(array), allow_pickle=False)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)  # mkstemp's 0600 would hide the file from the user's group
+        os.replace(temporary, target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def read_archive(path: str | os.PathLike[str], kind: str, version: int) -> Archive:
+    """Read what `write_archive` wrote.
+
+    Args:
+        path: File to read.
+        kind: The kind the caller wants.
+        version: Newest layout the caller understands.
+
+    Raises:
+        FileNotFoundError: If there is no such file.
+        FileFormatError: If it is truncated, foreign, of another kind or newer than ``version``.
+    """
+    where = os.fspath(path)
+    wanted = f"a signimit {kind} file of version <= {version}"
+    try:
+        with zipfile.ZipFile(where) as archive:
+            _refuse_bombs(archive, where)
+            arrays = {Path(name).stem: _member(archive, name, where) for name in archive.namelist()}
+        header = json.loads(str(arrays.pop(_HEADER)[()]))
+        found, number, meta = header["kind"], header["version"], header["meta"]
+        if not isinstance(number, int) or not isinstance(meta, dict):
+            raise TypeError("header")
+    except (FileNotFoundError, IsADirectoryError, PermissionError, FileFormatError):
+        raise
+    except (zipfile.BadZipFile, zipfile.LargeZipFile, KeyError, TypeError, ValueError, EOFError, OSError,
+            NotImplementedError, RuntimeError) as error:  # fmt: skip
+        raise FileFormatError(where, wanted, f"something unreadable ({type(error).__name__})") from error
+    if found != kind or number > version:
+        raise FileFormatError(where, wanted, f"{found} version {number}")
+    return Archive(arrays, meta)
+
+
+def _refuse_bombs(archive: zipfile.ZipFile, where: str) -> None:
+    total = sum(info.file_size for info in archive.infolist())
+    if total > MAX_BYTES:
+        raise FileFormatError(where, f"at most {MAX_BYTES} bytes unpacked", f"{total}")
+
+
+def _member(archive: zipfile.ZipFile, name: str, where: str) -> NDArray[Any]:
+    """Read one array, having checked that its header does not promise more than the file holds."""
+    info = archive.getinfo(name)
+    with archive.open(info) as member:
+        major, _ = np.lib.format.read_magic(member)
+        read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+        shape, _, dtype = read(member)
+        promised = int(np.prod(shape, dtype=object)) * dtype.itemsize
+        if dtype.hasobject or promised > info.file_size:
+            raise FileFormatError(
+                f"{where}: {name}", f"at most {info.file_size} bytes of plain numbers", f"{dtype} {shape}"
+            )
+    with archive.open(info) as member:
+        array: NDArray[Any] = np.lib.format.read_array(member, allow_pickle=False)
+    return array

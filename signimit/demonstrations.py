@@ -1,0 +1,186 @@
+"""Demonstrations: exactly what the imitator may see, and nothing more (paper, section II-A).
+
+Labels, requested movements and the demonstrator's focus are not here and must never be; they live in
+`signimit.composition.GroundTruth`, with the evaluator.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Self, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.archive import read_archive, write_archive
+from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit.strokes import flatten, unflatten
+from signimit.validation import finite_array, increasing_times, moving_points
+
+KIND, VERSION = "demonstration set", 1
+
+
+@dataclass(frozen=True, eq=False)
+class Demonstration:
+    """One exchange between the interactant and the demonstrator.
+
+    Attributes:
+        signs: The utterance, W hand signs in the order they were made, each of shape (T_s, 2), any unit.
+        objects: Positions of the objects, shape (O, 2), m, table frame.
+        hand: The demonstrator's hand, shape (T, 2), m, table frame.
+        times: When the hand was there, shape (T,), s, strictly increasing.
+    """
+
+    signs: tuple[NDArray[np.float64], ...]
+    objects: NDArray[np.float64]
+    hand: NDArray[np.float64]
+    times: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        """Copy, check and make read-only.
+
+        Raises:
+            InvalidInputError: Names the field, what was expected and what was found.
+        """
+        if isinstance(self.signs, (str, bytes)) or not isinstance(self.signs, Iterable):
+            raise InvalidInputError("signs", "one stroke for each word", type(self.signs).__name__)
+        signs = tuple(moving_points(s, f"sign {i}") for i, s in enumerate(self.signs))
+        if not signs:
+            raise InvalidInputError("signs", "at least one stroke", "none")
+        objects = finite_array(self.objects, "objects", (None, 2))
+        if not len(objects):
+            raise InvalidInputError("objects", "at least one position", "none")
+        hand = moving_points(self.hand, "hand")
+        object.__setattr__(self, "signs", signs)
+        object.__setattr__(self, "objects", objects)
+        object.__setattr__(self, "hand", hand)
+        object.__setattr__(self, "times", increasing_times(self.times, "times", len(hand)))
+
+
+@dataclass(frozen=True, eq=False)
+class DemonstrationSet(Sequence[Demonstration]):
+    """Demonstrations of one language: same number of words and of objects throughout.
+
+    Attributes:
+        demonstrations: The demonstrations, in the order they were seen.
+    """
+
+    demonstrations: tuple[Demonstration, ...]
+
+    def __init__(self, demonstrations: Iterable[Demonstration]) -> None:
+        """Gather demonstrations.
+
+        Raises:
+            InvalidInputError: If there are none, or one differs in words or objects from the first.
+        """
+        object.__setattr__(self, "demonstrations", tuple(demonstrations))
+        for i, demonstration in enumerate(self.demonstrations):
+            if not isinstance(demonstration, Demonstration):
+                raise InvalidInputError(f"demonstration {i}", "a Demonstration", type(demonstration).__name__)
+        if not self.demonstrations:
+            raise InvalidInputError("demonstration set", "at least one demonstration", "none")
+        first = self.demonstrations[0]
+        for i, other in enumerate(self.demonstrations):
+            for field in ("signs", "objects"):
+                want, have = len(getattr(first, field)), len(getattr(other, field))
+                if have != want:
+                    raise InvalidInputError(
+                        f"demonstration {i}: {field}", f"{want} as in demonstration 0", f"{have}"
+                    )
+
+    @overload
+    def __getitem__(self, index: int) -> Demonstration: ...
+    @overload
+    def __getitem__(self, index: slice) -> DemonstrationSet: ...
+    def __getitem__(self, index: int | slice) -> Demonstration | DemonstrationSet:
+        """Return one demonstration, or a smaller set."""
+        if isinstance(index, slice):
+            return DemonstrationSet(self.demonstrations[index])
+        return self.demonstrations[index]
+
+    def __iter__(self) -> Iterator[Demonstration]:
+        """Go through the demonstrations."""
+        return iter(self.demonstrations)
+
+    def __len__(self) -> int:
+        """Return N."""
+        return len(self.demonstrations)
+
+    @property
+    def paths(self) -> list[NDArray[np.float64]]:
+        """Hand paths, N of shape (T_t, 2), m, table frame."""
+        return [d.hand for d in self.demonstrations]
+
+    @property
+    def times(self) -> list[NDArray[np.float64]]:
+        """Time stamps, N of shape (T_t,), s."""
+        return [d.times for d in self.demonstrations]
+
+    @property
+    def objects(self) -> NDArray[np.float64]:
+        """Object positions, shape (N, O, 2), m, table frame."""
+        return np.stack([d.objects for d in self.demonstrations])
+
+    @property
+    def signs(self) -> list[tuple[NDArray[np.float64], ...]]:
+        """Utterances: N tuples of W strokes."""
+        return [d.signs for d in self.demonstrations]
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a ``.npz`` file without pickles, whole or not at all."""
+        write_archive(path, KIND, VERSION, self.to_arrays())
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote.
+
+        Raises:
+            FileFormatError: Names the file, the demonstration and the field.
+        """
+        arrays, _ = read_archive(path, KIND, VERSION)
+        return cls.from_arrays(arrays, os.fspath(path))
+
+    def to_arrays(self) -> dict[str, NDArray[Any]]:
+        """Return the set as flat arrays, the layout of the file."""
+        hands, times, hand_offsets = flatten([(d.hand, d.times) for d in self.demonstrations])
+        strokes = [(s, np.arange(len(s), dtype=np.float64)) for d in self.demonstrations for s in d.signs]
+        signs, _, sign_offsets = flatten(strokes)
+        return {
+            "objects": self.objects,
+            "hand": hands,
+            "times": times,
+            "hand_offsets": hand_offsets,
+            "signs": signs,
+            "sign_offsets": sign_offsets,
+        }
+
+    @classmethod
+    def from_arrays(cls, arrays: dict[str, NDArray[Any]], where: str) -> Self:
+        """Rebuild a set from `to_arrays`, complaining about ``where`` if that cannot be."""
+        try:
+            objects = finite_array(arrays["objects"], "objects", (None, None, 2))
+            hands = unflatten(arrays["hand"], arrays["times"], arrays["hand_offsets"])
+            strokes = unflatten(arrays["signs"], np.zeros(len(arrays["signs"])), arrays["sign_offsets"])
+            count, words = len(hands), len(strokes) // max(1, len(hands))
+            if len(objects) != count or words * count != len(strokes):
+                raise InvalidInputError(
+                    "demonstrations",
+                    f"objects and signs for {count} hands",
+                    f"{len(objects)} and {len(strokes)}",
+                )
+            made = []
+            for i, (hand, times) in enumerate(hands):
+                signs = tuple(p for p, _ in strokes[i * words : (i + 1) * words])
+                try:
+                    made.append(Demonstration(signs, objects[i], hand, times))
+                except InvalidInputError as error:
+                    raise error.inside(f"demonstration {i}") from None
+            return cls(made)
+        except KeyError as error:
+            raise FileFormatError(where, f"an array {error}", "none") from None
+        except (InvalidInputError, TypeError) as error:
+            if not isinstance(error, InvalidInputError):
+                raise FileFormatError(where, "arrays of numbers", str(error)) from None
+            raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None

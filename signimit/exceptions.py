@@ -1,0 +1,65 @@
+"""Everything that signimit refuses, under one base class.
+
+Each class also inherits the builtin that fits, takes facts, keeps them as attributes, and says
+in one sentence what was wrong, where, what was expected and what was found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class SignimitError(Exception):
+    """Base of every error that signimit raises on purpose."""
+
+
+class InvalidInputError(SignimitError, ValueError):
+    """A value that cannot be used.
+
+    Attributes:
+        where: What was given, e.g. ``"demonstration 3: hand"``.
+        expected: What would have worked.
+        found: What was there instead.
+    """
+
+    def __init__(self, where: str, expected: str, found: str) -> None:
+        """Keep the three facts and make the sentence."""
+        self.where, self.expected, self.found = where, expected, found
+        super().__init__(f"{where}: expected {expected}, found {found}.")
+
+    def inside(self, place: str) -> InvalidInputError:
+        """Return the same complaint, told from one level further out."""
+        return type(self)(f"{place}: {self.where}", self.expected, self.found)
+
+
+class FileFormatError(InvalidInputError):
+    """A file that is not what its name promises: truncated, foreign, hostile or of another version."""
+
+
+class UnknownNameError(SignimitError, ValueError):
+    """A name that stands for nothing, with the names that would have worked.
+
+    Attributes:
+        what: The kind of thing that was asked for, e.g. ``"policy kind"``.
+        name: The name that was given.
+        known: The names that exist.
+    """
+
+    def __init__(self, what: str, name: object, known: Iterable[str]) -> None:
+        """Keep the facts and list the alternatives."""
+        self.what, self.name, self.known = what, name, tuple(known)
+        super().__init__(f"Unknown {what} {name!r}; known are {', '.join(self.known)}.")
+
+
+class MissingDependencyError(SignimitError, ImportError):
+    """An optional package is needed and not installed.
+
+    Attributes:
+        package: The package that is missing.
+        extra: The extra of signimit that installs it.
+    """
+
+    def __init__(self, package: str, extra: str, purpose: str) -> None:
+        """Keep the facts and say what to type."""
+        self.package, self.extra = package, extra
+        super().__init__(f"{purpose} needs {package}: pip install 'signimit[{extra}]'.")

@@ -1,0 +1,190 @@
+"""Strokes: what a pen or a hand drew, and libraries of them (paper, section II-A)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Self, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.archive import read_archive, write_archive
+from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.validation import increasing_times, moving_points
+
+KIND, VERSION = "stroke library", 1
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """One continuous drawing.
+
+    Attributes:
+        points: Positions, shape (T, 2), any unit, y up; read-only.
+        times: Seconds, shape (T,), strictly increasing; read-only.
+    """
+
+    points: NDArray[np.float64]
+    times: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        """Check and copy.
+
+        Raises:
+            InvalidInputError: If the stroke is not finite, too short, at rest or its times stand still.
+        """
+        object.__setattr__(self, "points", moving_points(self.points, "stroke points"))
+        object.__setattr__(self, "times", increasing_times(self.times, "stroke times", len(self.points)))
+
+    def __len__(self) -> int:
+        """Return the number of points."""
+        return len(self.points)
+
+
+@dataclass(frozen=True, eq=False)
+class StrokeLibrary(Sequence[Stroke]):
+    """Labelled strokes of several writers. For composing sessions and for judging; never shown to a learner.
+
+    Attributes:
+        strokes: The strokes.
+        labels: What each is, e.g. ``"4"`` or ``"circle"``.
+        writers: Who drew each.
+        source: Where they come from, in words (``"synthetic"`` if nobody drew them).
+    """
+
+    strokes: tuple[Stroke, ...]
+    labels: tuple[str, ...]
+    writers: tuple[str, ...]
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        """Check that there is one label and one writer for each stroke."""
+        for name in ("strokes", "labels", "writers"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        if not len(self.strokes) == len(self.labels) == len(self.writers):
+            raise InvalidInputError(
+                "stroke library",
+                "as many labels and writers as strokes",
+                f"{len(self.strokes)} strokes, {len(self.labels)} labels, {len(self.writers)} writers",
+            )
+
+    @overload
+    def __getitem__(self, index: int) -> Stroke: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Stroke, ...]: ...
+    def __getitem__(self, index: int | slice) -> Stroke | tuple[Stroke, ...]:
+        """Return a stroke by number."""
+        return self.strokes[index]
+
+    def __iter__(self) -> Iterator[Stroke]:
+        """Go through the strokes."""
+        return iter(self.strokes)
+
+    def __len__(self) -> int:
+        """Return the number of strokes."""
+        return len(self.strokes)
+
+    def select(self, label: str | None = None, writer: str | None = None) -> StrokeLibrary:
+        """Return the part with one label, one writer, or both.
+
+        Raises:
+            UnknownNameError: If the library has no such label or writer at all.
+        """
+        if label is not None and label not in self.labels:
+            raise UnknownNameError("label", label, sorted(set(self.labels)))
+        if writer is not None and writer not in self.writers:
+            raise UnknownNameError("writer", writer, sorted(set(self.writers)))
+        keep = [
+            i
+            for i, (a, b) in enumerate(zip(self.labels, self.writers, strict=True))
+            if label in (None, a) and writer in (None, b)
+        ]
+        return self._take(keep)
+
+    def _take(self, keep: Iterable[int]) -> StrokeLibrary:
+        keep = list(keep)
+        return StrokeLibrary(
+            tuple(self.strokes[i] for i in keep),
+            tuple(self.labels[i] for i in keep),
+            tuple(self.writers[i] for i in keep),
+            self.source,
+        )
+
+    def __add__(self, other: StrokeLibrary) -> StrokeLibrary:
+        """Return the strokes of both."""
+        source = " + ".join(dict.fromkeys(s for s in (self.source, other.source) if s))
+        return StrokeLibrary(
+            self.strokes + other.strokes, self.labels + other.labels, self.writers + other.writers, source
+        )
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a ``.npz`` file without pickles, whole or not at all."""
+        points, times, offsets = flatten([(s.points, s.times) for s in self.strokes])
+        arrays = {
+            "points": points,
+            "times": times,
+            "offsets": offsets,
+            "labels": np.array(self.labels, dtype=np.str_),
+            "writers": np.array(self.writers, dtype=np.str_),
+        }
+        write_archive(path, KIND, VERSION, arrays, {"source": self.source})
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote.
+
+        Raises:
+            FileFormatError: If the file is not a whole, sane stroke library.
+        """
+        arrays, meta = read_archive(path, KIND, VERSION)
+        where = os.fspath(path)
+        try:
+            parts = unflatten(arrays["points"], arrays["times"], arrays["offsets"])
+            labels, writers = arrays["labels"].tolist(), arrays["writers"].tolist()
+            strokes = []
+            for i, (p, t) in enumerate(parts):
+                try:
+                    strokes.append(Stroke(p, t))
+                except InvalidInputError as error:
+                    raise error.inside(f"stroke {i}") from None
+            return cls(tuple(strokes), tuple(labels), tuple(writers), str(meta.get("source", "")))
+        except KeyError as error:
+            raise FileFormatError(where, f"an array {error}", "none") from None
+        except InvalidInputError as error:
+            raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
+
+
+def flatten(
+    parts: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]]:
+    """Join ragged (points, times) into flat arrays and the offsets that cut them apart again."""
+    offsets = np.cumsum([0, *(len(p) for p, _ in parts)]).astype(np.int64)
+    points = np.concatenate([p for p, _ in parts]) if parts else np.zeros((0, 2))
+    times = np.concatenate([t for _, t in parts]) if parts else np.zeros(0)
+    return points, times, offsets
+
+
+def unflatten(
+    points: ArrayLike, times: ArrayLike, offsets: ArrayLike
+) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+    """Cut flat arrays at their offsets.
+
+    Raises:
+        InvalidInputError: If the offsets do not cut these arrays.
+    """
+    p, t, o = np.asarray(points), np.asarray(times), np.asarray(offsets)
+    sane = (
+        o.ndim == 1
+        and o.dtype.kind in "iu"
+        and len(o) > 0
+        and o[0] == 0
+        and bool((np.diff(o.astype(np.int64)) >= 0).all())
+    )
+    if not sane or p.ndim == 0 or t.ndim == 0 or o[-1] != len(p) or o[-1] != len(t):
+        raise InvalidInputError(
+            "offsets", f"a rising cut of {len(p) if p.ndim else 0} points", f"{o.tolist()[:8]}"
+        )
+    cuts = o[1:-1]
+    return list(zip(np.split(p, cuts), np.split(t, cuts), strict=True)) if len(o) > 1 else []

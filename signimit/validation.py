@@ -1,0 +1,69 @@
+"""The boundary: what comes in is turned into finite, read-only float arrays or refused in one sentence."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.exceptions import InvalidInputError
+
+
+def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) -> NDArray[np.float64]:
+    """Copy ``value`` into a read-only float array of the wanted shape.
+
+    Args:
+        value: Anything that numpy can read as numbers.
+        where: What it is called in the error's sentence.
+        shape: Wanted shape; ``None`` stands for any length.
+
+    Returns:
+        A C-ordered copy that cannot be written to.
+
+    Raises:
+        InvalidInputError: If it is not numeric, has another shape or is not finite.
+    """
+    wanted = f"numbers of shape ({', '.join('n' if s is None else str(s) for s in shape)}{',' * (len(shape) == 1)})"
+    try:
+        array = np.array(value, dtype=np.float64, order="C")
+    except (TypeError, ValueError, OverflowError):
+        raise InvalidInputError(where, wanted, f"{type(value).__name__} that is not such an array") from None
+    if array.ndim != len(shape) or any(
+        want is not None and want != have for want, have in zip(shape, array.shape, strict=True)
+    ):
+        raise InvalidInputError(where, wanted, f"shape {array.shape}")
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        at = ", ".join(str(i) for i in bad[0])
+        raise InvalidInputError(where, "finite numbers", f"{array[tuple(bad[0])]} at index ({at})")
+    array.setflags(write=False)
+    return array
+
+
+def moving_points(value: ArrayLike, where: str) -> NDArray[np.float64]:
+    """Copy a path of at least two points, shape (T, 2), that does not stay in one place.
+
+    Raises:
+        InvalidInputError: If it is not such a path.
+    """
+    points = finite_array(value, where, (None, 2))
+    if len(points) < 2:
+        raise InvalidInputError(where, "at least 2 points", f"{len(points)}")
+    if not np.ptp(points, axis=0).any():
+        raise InvalidInputError(where, "points that move", f"{len(points)} points in one place")
+    return points
+
+
+def increasing_times(value: ArrayLike, where: str, count: int) -> NDArray[np.float64]:
+    """Copy time stamps, shape (count,), in seconds, strictly increasing.
+
+    Raises:
+        InvalidInputError: If they are not.
+    """
+    times = finite_array(value, where, (count,))
+    still = np.flatnonzero(np.diff(times) <= 0)
+    if len(still):
+        i = int(still[0])
+        raise InvalidInputError(
+            where, "strictly increasing seconds", f"{times[i]:g} then {times[i + 1]:g} at index {i}"
+        )
+    return times
