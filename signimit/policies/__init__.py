@@ -1,0 +1,59 @@
+"""Policies: from demonstrations of one movement to a control law (paper, section II-E).
+
+============== ====================================================================================== =========
+kind           what                                                                                   state
+============== ====================================================================================== =========
+knn            mean output of the 50 nearest demonstrated points, the paper's                         none
+============== ====================================================================================== =========
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from numpy.typing import ArrayLike
+
+from signimit.exceptions import FileFormatError, UnknownNameError
+from signimit.policies.knn import KNearestPolicy as KNearestPolicy
+from signimit.policies.protocol import CONTROL_PERIOD as CONTROL_PERIOD
+from signimit.policies.protocol import Policy as Policy
+from signimit.policies.protocol import StatefulPolicy as StatefulPolicy
+from signimit.policies.protocol import check_demonstrations
+from signimit.policies.storage import read_policy_arrays
+
+_CLASSES = {cls.kind: cls for cls in (KNearestPolicy,)}
+POLICY_KINDS = tuple(_CLASSES)
+DEFAULT_POLICY = KNearestPolicy.kind
+
+
+def make_policy(paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: str = DEFAULT_POLICY) -> Policy:
+    """Learn a policy from demonstrations of one movement, each seen from the object it was about.
+
+    Args:
+        paths: Hand positions, each of shape (T, 2), m, origin at the object.
+        times: When the hand was there, each of shape (T,), s, strictly increasing.
+        kind: One of `POLICY_KINDS`.
+
+    Returns:
+        An immutable policy: ``policy(hand)`` maps positions, shape (2,) or (B, 2), m, to velocities, m/s.
+
+    Raises:
+        InvalidInputError: If a demonstration is not a timed path.
+        UnknownNameError: If there is no such kind.
+    """
+    if kind not in _CLASSES:
+        raise UnknownNameError("policy kind", kind, POLICY_KINDS)
+    return _CLASSES[kind].learn(check_demonstrations(paths, times))
+
+
+def load_policy(path: str | os.PathLike[str]) -> Policy:
+    """Read a policy of any kind from the file that its ``save`` wrote.
+
+    Raises:
+        FileFormatError: If it is not a whole policy file, or of a kind that is not known here.
+    """
+    kind, arrays = read_policy_arrays(path)
+    if kind not in _CLASSES:
+        raise FileFormatError(os.fspath(path), f"a policy of kind {', '.join(POLICY_KINDS)}", repr(kind))
+    return _CLASSES[kind].from_arrays(arrays, os.fspath(path))

@@ -1,0 +1,65 @@
+"""The paper's policy: the mean output of the nearest demonstrated points (section II-E)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial import cKDTree
+
+from signimit.exceptions import InvalidInputError
+from signimit.policies.protocol import Array, check_hand, demonstrated_velocities
+from signimit.policies.storage import StoredPolicy
+from signimit.strokes import Stroke
+
+NEIGHBOURS = 50  # the paper's
+
+
+@dataclass(frozen=True, eq=False)
+class KNearestPolicy(StoredPolicy):
+    """Move in the mean direction of the 50 nearest demonstrated points.
+
+    Departure: the paper's output is a direction, and says nothing of speed; ours is scaled to the mean demonstrated
+    speed. Directions that cancel leave the hand slow or at rest, as they do in the paper.
+
+    Attributes:
+        points: Demonstrated points that move, shape (n, 2), m, object's frame.
+        directions: Direction of motion at each, unit vectors, shape (n, 2).
+        speed: Mean speed of the demonstrators, m/s.
+    """
+
+    kind: ClassVar[str] = "knn"
+    points: Array
+    directions: Array
+    speed: float
+    _tree: cKDTree = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check the arrays and index the points."""
+        super().__post_init__()
+        if (
+            self.points.ndim != 2
+            or self.points.shape[1:] != (2,)
+            or self.points.shape != self.directions.shape
+        ):
+            shapes = f"{self.points.shape} and {self.directions.shape}"
+            raise InvalidInputError("policy: points, directions", "two arrays of shape (n, 2)", shapes)
+        object.__setattr__(self, "_tree", cKDTree(self.points))
+
+    @classmethod
+    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+        """Collect the points of all demonstrations; a resting hand has no direction and is left out."""
+        points = np.concatenate([d.points for d in demonstrations])
+        velocity = np.concatenate([demonstrated_velocities(d) for d in demonstrations])
+        speed = np.hypot(*velocity.T)
+        moving = speed > 1e-6 * speed.max()
+        return cls(points[moving], velocity[moving] / speed[moving, None], float(speed[moving].mean()))
+
+    def __call__(self, hand: ArrayLike) -> Array:
+        """Return velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
+        _, nearest = self._tree.query(check_hand(hand), k=min(NEIGHBOURS, len(self.points)))
+        mean: Array = self.directions[nearest].reshape(*np.shape(hand)[:-1], -1, 2).mean(axis=-2)
+        return mean * self.speed
