@@ -26,11 +26,32 @@ Metres, seconds, radians. Table frame: x right, y away from the arm's base, orig
 
 from signimit.demonstrations import Demonstration as Demonstration
 from signimit.demonstrations import DemonstrationSet as DemonstrationSet
+from signimit.evaluation import Performance as Performance
+from signimit.evaluation import count_turns as count_turns
+from signimit.evaluation import performed as performed
 from signimit.exceptions import FileFormatError as FileFormatError
 from signimit.exceptions import InvalidInputError as InvalidInputError
 from signimit.exceptions import MissingDependencyError as MissingDependencyError
 from signimit.exceptions import SignimitError as SignimitError
 from signimit.exceptions import UnknownNameError as UnknownNameError
+from signimit.grouping import Grouping as Grouping
+from signimit.grouping import group_movements as group_movements
+from signimit.inference import WordOrder as WordOrder
+from signimit.inference import infer_focus as infer_focus
+from signimit.inference import infer_word_order as infer_word_order
+from signimit.learning import ImitationModel as ImitationModel
+from signimit.learning import Movement as Movement
+from signimit.learning import Response as Response
+from signimit.learning import learn as learn
+from signimit.policies import Policy as Policy
+from signimit.policies import load_policy as load_policy
+from signimit.policies import make_policy as make_policy
+from signimit.signs import SignSpace as SignSpace
+from signimit.signs import dtw_distance as dtw_distance
+from signimit.signs import normalised_sign as normalised_sign
+from signimit.similarity import maximum_similarities as maximum_similarities
+from signimit.similarity import policy_distances as policy_distances
+from signimit.similarity import policy_similarities as policy_similarities
 from signimit.strokes import Stroke as Stroke
 from signimit.strokes import StrokeLibrary as StrokeLibrary
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Self, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError
@@ -86,9 +86,7 @@ class DemonstrationSet(Sequence[Demonstration]):
             for field in ("signs", "objects"):
                 want, have = len(getattr(first, field)), len(getattr(other, field))
                 if have != want:
-                    raise InvalidInputError(
-                        f"demonstration {i}: {field}", f"{want} as in demonstration 0", f"{have}"
-                    )
+                    raise InvalidInputError(f"demonstration {i}: {field}", f"{want} as in demonstration 0", f"{have}")
 
     @overload
     def __getitem__(self, index: int) -> Demonstration: ...

@@ -183,8 +183,6 @@ def unflatten(
         and bool((np.diff(o.astype(np.int64)) >= 0).all())
     )
     if not sane or p.ndim == 0 or t.ndim == 0 or o[-1] != len(p) or o[-1] != len(t):
-        raise InvalidInputError(
-            "offsets", f"a rising cut of {len(p) if p.ndim else 0} points", f"{o.tolist()[:8]}"
-        )
+        raise InvalidInputError("offsets", f"a rising cut of {len(p) if p.ndim else 0} points", f"{o.tolist()[:8]}")
     cuts = o[1:-1]
     return list(zip(np.split(p, cuts), np.split(t, cuts), strict=True)) if len(o) > 1 else []

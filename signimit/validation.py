@@ -22,7 +22,8 @@ def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) ->
     Raises:
         InvalidInputError: If it is not numeric, has another shape or is not finite.
     """
-    wanted = f"numbers of shape ({', '.join('n' if s is None else str(s) for s in shape)}{',' * (len(shape) == 1)})"
+    sizes = ", ".join("n" if s is None else str(s) for s in shape)
+    wanted = f"numbers of shape ({sizes}{',' * (len(shape) == 1)})"
     try:
         array = np.array(value, dtype=np.float64, order="C")
     except (TypeError, ValueError, OverflowError):

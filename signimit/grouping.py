@@ -1,0 +1,154 @@
+"""Which demonstrations show the same movement: the paper's grouping algorithm (section II-C, Algorithm 1)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.exceptions import InvalidInputError, UnknownNameError
+from signimit.validation import finite_array
+
+STEPS = 50
+_RESCUE = 1e-4  # what every membership gets back after each step, as printed
+_EXPONENT = 0.25  # strength of the preference for few movements, as printed
+
+Push = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
+
+
+class Grouping(NamedTuple):
+    """What the grouping algorithm found.
+
+    Attributes:
+        labels: Movement of each demonstration, shape (N,), 0, 1, ... in order of first appearance.
+        memberships: M after the last step, ``memberships[m, t]``, shape (N, N); columns sum to 1.
+        history: M before the first step and after each, shape (S + 1, N, N).
+    """
+
+    labels: NDArray[np.int64]
+    memberships: NDArray[np.float64]
+    history: NDArray[np.float64]
+
+
+def group_movements(
+    similarity: ArrayLike,
+    method: str = "paper",
+    steps: int = STEPS,
+    rng: np.random.Generator | int | None = 0,
+) -> Grouping:
+    """Group demonstrations by movement with Algorithm 1.
+
+    Departure: as printed, m <- m_k ξ + (1 - m_k) m does not break the symmetry between groups and every membership
+    stays near 1/N. The update that does what the text says ("a positive push increases") is multiplicative,
+    m <- m_k ξ m + (1 - m_k) m; it is ``method="paper"``. The printed one is ``method="paper-literal"``.
+    Departure: M_1 is not given in the paper; here it is uniform random with columns that sum to 1.
+
+    Args:
+        similarity: γ_{t;k}, shape (N, N), symmetric, positive off the diagonal; the diagonal is not used.
+        method: ``"paper"`` or ``"paper-literal"``.
+        steps: S, the number of steps.
+        rng: Generator or seed of M_1.
+
+    Returns:
+        Labels, memberships and their history.
+
+    Raises:
+        InvalidInputError: If the similarity is not such a matrix or ``steps`` is negative.
+        UnknownNameError: If there is no such method.
+    """
+    if method not in _PUSHES:
+        raise UnknownNameError("grouping method", method, _PUSHES)
+    gamma = _checked_similarity(similarity)
+    if steps < 0:
+        raise InvalidInputError("steps", "zero or more", f"{steps}")
+    memberships = np.random.default_rng(rng).random(gamma.shape)
+    memberships /= memberships.sum(axis=0)
+    history = [memberships]
+    for _ in range(steps):
+        history.append(step_memberships(history[-1], gamma, _PUSHES[method]))
+    return Grouping(canonical_labels(history[-1].argmax(axis=0)), history[-1], np.stack(history))
+
+
+def _checked_similarity(similarity: ArrayLike) -> NDArray[np.float64]:
+    gamma = finite_array(similarity, "similarity", (None, None)).copy()
+    if gamma.shape[0] != gamma.shape[1] or not len(gamma):
+        raise InvalidInputError("similarity", "a square matrix", f"shape {gamma.shape}")
+    np.fill_diagonal(gamma, 0.0)
+    if (gamma < 0).any() or not np.allclose(gamma, gamma.T):
+        raise InvalidInputError("similarity", "a symmetric matrix without negative numbers", "another")
+    return gamma
+
+
+def canonical_labels(labels: ArrayLike) -> NDArray[np.int64]:
+    """Rename labels, shape (N,), to 0, 1, ... in order of first appearance."""
+    _, first, inverse = np.unique(np.asarray(labels), return_index=True, return_inverse=True)
+    return np.argsort(np.argsort(first))[inverse].astype(np.int64)
+
+
+def joint_memberships(memberships: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute ω_{t;k} = max_m(m_{m;t} m_{m;k}) / Σ_τ max_m(m_{m;t} m_{m;τ}), shape (N, N)."""
+    joint = np.zeros((memberships.shape[1],) * 2)
+    for row in memberships:
+        np.maximum(joint, np.outer(row, row), out=joint)
+    return np.asarray(joint / joint.sum(axis=1, keepdims=True))
+
+
+def push_strengths(memberships: NDArray[np.float64], gamma: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute ξ_{t;k} = exp(γ_{t;k} / ϖ_t - 1), with ϖ_t = Σ_k ω_{t;k} γ_{t;k}, shape (N, N).
+
+    ``[t, k]`` is normalised by ϖ of t, the trajectory that is pushed; k pushes.
+    """
+    mean = (joint_memberships(memberships) * gamma).sum(axis=1, keepdims=True)
+    # Two demonstrations that agree to the last bit outweigh all others by 1e6; exp must not overflow.
+    return np.asarray(np.exp(np.clip(gamma / np.maximum(mean, 1e-300) - 1.0, None, 50.0)))
+
+
+def step_memberships(memberships: NDArray[np.float64], gamma: NDArray[np.float64], push: Push) -> NDArray[np.float64]:
+    """Take one of the S steps of Algorithm 1.
+
+    Departure: "1 < m < N" is read to include both ends; "rescale" makes the memberships of each trajectory sum to 1.
+    """
+    moved = _rescaled(push(memberships, push_strengths(memberships, gamma)))
+    preferred = _rescaled(moved * moved.sum(axis=1, keepdims=True) ** _EXPONENT)
+    return _rescaled(preferred + _RESCUE)
+
+
+def _rescaled(memberships: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(memberships / memberships.sum(axis=0))
+
+
+def push_multiplicative(old: NDArray[np.float64], xi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Apply m_{m;t} <- m_{m;k} ξ m_{m;t} + (1 - m_{m;k}) m_{m;t} for all k other than t.
+
+    The update is a product of factors 1 + m_{m;k} (ξ_{t;k} - 1); it is summed as logarithms and each trajectory's
+    largest is taken out, which the rescaling that follows cancels, so that no product overflows.
+    """
+    gain = xi - 1.0
+    np.fill_diagonal(gain, 0.0)
+    exponents = np.stack([np.log1p(row[None, :] * gain).sum(axis=1) for row in old])
+    exponents += np.log(old)
+    return np.asarray(np.exp(exponents - exponents.max(axis=0)))
+
+
+def push_as_printed(old: NDArray[np.float64], xi: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Apply m_{m;t} <- m_{m;k} ξ + (1 - m_{m;k}) m_{m;t} for k = 1 ... N other than t, as printed.
+
+    The update is affine in m_{m;t}, so the loop over k has a closed form:
+    m Π_k (1 - m_k) + Σ_k m_k ξ_k Π_{l > k} (1 - m_l), in both of which k and l pass over t.
+    """
+    keep = 1.0 - old  # (m, k)
+    out = np.empty_like(old)
+    for t in range(old.shape[1]):
+        kept = keep.copy()
+        kept[:, t] = 1.0
+        after = np.cumprod(kept[:, ::-1], axis=1)[:, ::-1]  # product over l >= k
+        later = np.column_stack([after[:, 1:], np.ones(len(old))])
+        pushed = old * xi[t][None, :] * later
+        pushed[:, t] = 0.0
+        out[:, t] = old[:, t] * after[:, 0] + pushed.sum(axis=1)
+    return out
+
+
+_PUSHES: dict[str, Push] = {"paper": push_multiplicative, "paper-literal": push_as_printed}

@@ -1,0 +1,24 @@
+"""Ways of understanding demonstrations, one module each, by name."""
+
+from __future__ import annotations
+
+from signimit.exceptions import UnknownNameError
+from signimit.learners.paper import PaperLearner as PaperLearner
+from signimit.understanding import Learner
+
+LEARNERS: dict[str, Learner] = {
+    "paper": PaperLearner(),
+    "paper-literal": PaperLearner(grouping="paper-literal"),
+}
+DEFAULT_METHOD = "paper"
+
+
+def get_learner(method: str) -> Learner:
+    """Return the learner of that name.
+
+    Raises:
+        UnknownNameError: If there is none.
+    """
+    if method not in LEARNERS:
+        raise UnknownNameError("method", method, LEARNERS)
+    return LEARNERS[method]

@@ -1,0 +1,254 @@
+"""Learn from demonstrations, and answer new utterances (paper, section II)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.archive import read_archive, write_archive
+from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.frames import TablePolicy, on_table
+from signimit.inference import WordOrder
+from signimit.learners import DEFAULT_METHOD, get_learner
+from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, make_policy
+from signimit.strokes import Stroke, flatten, unflatten
+from signimit.summary import summarise
+from signimit.understanding import SignReader, Understanding
+from signimit.validation import finite_array, moving_points
+
+KIND, VERSION = "imitation model", 1
+
+
+class Movement(NamedTuple):
+    """A movement is its members.
+
+    Attributes:
+        members: Numbers of the demonstrations that show it.
+        paths: Their hand paths in the frame of the object they were about, each (T_t, 2), m.
+        times: Their time stamps, each (T_t,), s.
+    """
+
+    members: tuple[int, ...]
+    paths: tuple[NDArray[np.float64], ...]
+    times: tuple[NDArray[np.float64], ...]
+
+
+class Response(NamedTuple):
+    """An answer to an utterance.
+
+    Attributes:
+        movement: Number of the movement that was asked for, an index of ``model.movements``.
+        focus: Number of the object that was asked for.
+        policy: Velocity, m/s, of a hand at (2,) or hands at (B, 2), m, table frame.
+        confidence: Probability, in the learner's eyes, that both are right.
+    """
+
+    movement: int
+    focus: int
+    policy: TablePolicy
+    confidence: float
+
+
+@dataclass(frozen=True, eq=False)
+class ImitationModel:
+    """What an imitator has understood; made by `learn`, immutable.
+
+    Attributes:
+        demonstrations: What it has seen.
+        understanding: What it has inferred.
+        method: Name of the learner.
+        policy_kind: Kind of policy that its responses use.
+        prototypes: Prototype signs, if the method was given any.
+    """
+
+    demonstrations: DemonstrationSet
+    understanding: Understanding
+    method: str
+    policy_kind: str
+    prototypes: tuple[NDArray[np.float64], ...] | None = None
+    _policies: dict[int, Policy] = field(default_factory=dict, repr=False)
+
+    @property
+    def labels(self) -> NDArray[np.int64]:
+        """Movement of each demonstration, shape (N,)."""
+        return self.understanding.labels
+
+    @property
+    def focus(self) -> NDArray[np.int64]:
+        """Object each demonstration was about, shape (N,)."""
+        return self.understanding.focus
+
+    @property
+    def word_order(self) -> WordOrder:
+        """Which word names the object and which the movement."""
+        return self.understanding.word_order
+
+    @property
+    def diagnostics(self) -> dict[str, NDArray[Any]]:
+        """Arrays that show how the learner came to its conclusions; which ones depends on the method."""
+        return dict(self.understanding.diagnostics)
+
+    @cached_property
+    def movements(self) -> tuple[Movement, ...]:
+        """The movements found, each with its members seen from the object they were about."""
+        demos, focus = self.demonstrations, self.focus
+        found = []
+        for m in range(int(self.labels.max()) + 1):
+            members = tuple(int(t) for t in np.flatnonzero(self.labels == m))
+            paths = tuple(demos[t].hand - demos[t].objects[focus[t]] for t in members)
+            found.append(Movement(members, paths, tuple(demos[t].times for t in members)))
+        return tuple(found)
+
+    @cached_property
+    def _reader(self) -> SignReader:
+        learner = get_learner(self.method)
+        return learner.reader(self.demonstrations, self.prototypes, self.understanding)
+
+    def respond(self, signs: Sequence[ArrayLike], objects: ArrayLike) -> Response:
+        """Answer an utterance in a scene (paper, section II-D).
+
+        Args:
+            signs: The W signs in the order they were made, each of shape (T_s, 2), any unit.
+            objects: Object positions, shape (O, 2), m, table frame.
+
+        Returns:
+            What was asked for, and the policy that does it.
+
+        Raises:
+            InvalidInputError: If there are not as many signs or objects as in the demonstrations.
+        """
+        words, count = len(self.demonstrations[0].signs), self.demonstrations.objects.shape[1]
+        if len(signs) != words:
+            raise InvalidInputError("signs", f"{words} as in the demonstrations", f"{len(signs)}")
+        places = finite_array(objects, "objects", (count, 2))
+        reading = self._reader.read([moving_points(s, f"sign {i}") for i, s in enumerate(signs)])
+        movement, focus = int(reading.movement.argmax()), int(reading.focus.argmax())
+        confidence = float(reading.movement[movement] * reading.focus[focus])
+        return Response(movement, focus, on_table(self.policy(movement), places[focus]), confidence)
+
+    def policy(self, movement: int) -> Policy:
+        """Return the policy of a movement in the frame of the object it is about; made once, when first asked for.
+
+        Raises:
+            UnknownNameError: If there is no such movement.
+        """
+        if not 0 <= movement < len(self.movements):
+            raise UnknownNameError("movement", movement, [str(m) for m in range(len(self.movements))])
+        if movement not in self._policies:
+            _, paths, times = self.movements[movement]
+            self._policies[movement] = make_policy(list(paths), list(times), kind=self.policy_kind)
+        return self._policies[movement]
+
+    def summary(self) -> str:
+        """Say in words what was understood."""
+        return summarise(self.understanding, self.demonstrations.objects.shape[1])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a ``.npz`` file without pickles, whole or not at all."""
+        arrays = {f"demonstrations__{k}": v for k, v in self.demonstrations.to_arrays().items()}
+        arrays |= {f"diagnostics__{k}": v for k, v in self.understanding.diagnostics.items()}
+        arrays |= {"labels": self.labels, "focus": self.focus, "word_order": np.array(self.word_order)}
+        if self.prototypes is not None:
+            points, _, offsets = flatten([(p, np.zeros(len(p))) for p in self.prototypes])
+            arrays |= {"prototypes": points, "prototype_offsets": offsets}
+        write_archive(path, KIND, VERSION, arrays, {"method": self.method, "policy": self.policy_kind})
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Self:
+        """Read what `save` wrote.
+
+        Raises:
+            FileFormatError: If the file is not a whole, sane model.
+        """
+        arrays, meta = read_archive(path, KIND, VERSION)
+        where = os.fspath(path)
+        demos = DemonstrationSet.from_arrays(_part(arrays, "demonstrations__"), where)
+        try:
+            method, kind = str(meta["method"]), str(meta["policy"])
+            get_learner(method)
+            _check_policy(kind)
+            understanding = _checked_understanding(arrays, demos)
+            prototypes = None
+            if "prototypes" in arrays:
+                flat = arrays["prototypes"]
+                pieces = unflatten(flat, np.zeros(len(flat)), arrays["prototype_offsets"])
+                prototypes = tuple(moving_points(p, f"prototype {i}") for i, (p, _) in enumerate(pieces))
+        except KeyError as error:
+            raise FileFormatError(where, f"an entry {error}", "none") from None
+        except InvalidInputError as error:
+            raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
+        except UnknownNameError as error:
+            raise FileFormatError(where, f"a known {error.what}", repr(error.name)) from None
+        return cls(demos, understanding, method, kind, prototypes)
+
+
+def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
+    return {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+
+
+def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet) -> Understanding:
+    count, frames, words = len(demos), demos.objects.shape[1], len(demos[0].signs)
+    labels = _indices(arrays["labels"], "labels", (count,), count)
+    focus = _indices(arrays["focus"], "focus", (count,), frames)
+    order = _indices(arrays["word_order"], "word order", (2,), words)
+    return Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), _part(arrays, "diagnostics__"))
+
+
+def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:
+    array = finite_array(value, where, shape).astype(np.int64)
+    if (array < 0).any() or (array >= count).any():
+        raise InvalidInputError(where, f"whole numbers from 0 to {count - 1}", f"{array.tolist()}")
+    array.setflags(write=False)
+    return array
+
+
+def _check_policy(kind: str) -> None:
+    if kind not in POLICY_KINDS:
+        raise UnknownNameError("policy kind", kind, POLICY_KINDS)
+
+
+def learn(
+    demonstrations: DemonstrationSet,
+    prototypes: Sequence[Stroke | ArrayLike] | None = None,
+    method: str = DEFAULT_METHOD,
+    policy: str = DEFAULT_POLICY,
+    rng: np.random.Generator | int | None = 0,
+) -> ImitationModel:
+    """Understand demonstrations: movements, foci, word order and the meaning of signs.
+
+    Args:
+        demonstrations: What was seen, and all that may be used.
+        prototypes: Strokes that span the paper's sign space; the methods ``"paper"`` and ``"paper-literal"`` need them.
+        method: Name of a learner; ``signimit.learners.LEARNERS`` has them.
+        policy: Kind of policy for the responses; ``signimit.policies.POLICY_KINDS`` has them.
+        rng: Generator, or seed of one; the same seed gives the same model.
+
+    Returns:
+        A model that answers utterances.
+
+    Raises:
+        InvalidInputError: If something cannot be used.
+        UnknownNameError: If there is no such method or policy.
+    """
+    if not isinstance(demonstrations, DemonstrationSet):
+        raise InvalidInputError("demonstrations", "a DemonstrationSet", type(demonstrations).__name__)
+    learner = get_learner(method)
+    _check_policy(policy)
+    strokes = None if prototypes is None else _prototype_points(prototypes)
+    understanding = learner.infer(demonstrations, strokes, np.random.default_rng(rng))
+    for array in (understanding.labels, understanding.focus, *understanding.diagnostics.values()):
+        array.setflags(write=False)
+    return ImitationModel(demonstrations, understanding, method, policy, strokes)
+
+
+def _prototype_points(prototypes: Sequence[Stroke | ArrayLike]) -> tuple[NDArray[np.float64], ...]:
+    return tuple(
+        moving_points(p.points if isinstance(p, Stroke) else p, f"prototype {i}") for i, p in enumerate(prototypes)
+    )

@@ -1,0 +1,145 @@
+"""Signs: dynamic time warping, and the space of similarities to prototypes (paper, section II-A)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.exceptions import InvalidInputError
+from signimit.strokes import Stroke
+from signimit.validation import finite_array, moving_points
+
+SAMPLES = 64
+
+
+def dtw_distance(a: ArrayLike, b: ArrayLike) -> float:
+    """Compute the dynamic-time-warping distance of two strokes.
+
+    Convention: Euclidean distance as local cost, steps (1, 0), (0, 1), (1, 1) of equal weight, the sum along the
+    cheapest alignment, neither squared nor divided by its length, no window.
+
+    Args:
+        a: Points, shape (n, 2), any unit.
+        b: Points, shape (m, 2), the same unit.
+
+    Returns:
+        The distance in that unit: 0 for equal strokes, symmetric, unchanged when both are shifted alike.
+
+    Raises:
+        InvalidInputError: If either is empty, not finite or not (n, 2).
+    """
+    first, second = finite_array(a, "first stroke", (None, 2)), finite_array(b, "second stroke", (None, 2))
+    for name, stroke in (("first stroke", first), ("second stroke", second)):
+        if not len(stroke):
+            raise InvalidInputError(name, "at least 1 point", "0")
+    return float(_warp(np.hypot(*(first[:, None] - second[None]).transpose(2, 0, 1))[None])[0])
+
+
+def pairwise_dtw(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute `dtw_distance` between all strokes of two stacks at once.
+
+    Args:
+        first: Strokes of equal length, shape (A, T, 2).
+        second: Strokes of equal length, shape (B, T', 2).
+
+    Returns:
+        Distances, shape (A, B).
+    """
+    out = np.empty((len(first), len(second)))
+    for i, stroke in enumerate(first):
+        gaps = stroke[None, :, None, :] - second[:, None, :, :]
+        out[i] = _warp(np.hypot(gaps[..., 0], gaps[..., 1]))
+    return out
+
+
+def _warp(cost: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Accumulate local costs, shape (B, n, m), along anti-diagonals; return the totals, shape (B,)."""
+    count, n, m = cost.shape
+    # Cell (i, j) lies on diagonal i + j; a diagonal only needs the two before it, indexed here by i + 1.
+    previous, last = np.full((2, count, n + 1), np.inf)
+    for d in range(n + m - 1):
+        low, high = max(0, d - m + 1), min(n, d + 1)
+        i = np.arange(low, high)
+        best = np.minimum(np.minimum(last[:, i], last[:, i + 1]), previous[:, i])
+        if d == 0:
+            best = np.zeros((count, 1))
+        current = np.full((count, n + 1), np.inf)
+        current[:, i + 1] = cost[:, i, d - i] + best
+        previous, last = last, current
+    return np.asarray(last[:, n])
+
+
+def normalised_sign(sign: ArrayLike, samples: int = SAMPLES) -> NDArray[np.float64]:
+    """Resample a sign evenly along its length, centre it, and scale it to a largest half extent of 1.
+
+    Args:
+        sign: Points, shape (T, 2), any unit.
+        samples: Number of points of the result.
+
+    Returns:
+        Shape (samples, 2), no unit, within [-1, 1]; the same for the sign shifted or scaled.
+
+    Raises:
+        InvalidInputError: If the sign has fewer than two points, does not move or is not finite.
+    """
+    points = moving_points(sign, "sign")
+    resampled = resampled_path(points / np.abs(points).max(), samples)
+    centred = resampled - (resampled.max(0) + resampled.min(0)) / 2
+    return np.asarray(centred / np.abs(centred).max())
+
+
+def resampled_path(points: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
+    """Resample a path, shape (T, 2), to ``samples`` points evenly spaced along its length."""
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+    wanted = np.linspace(0.0, length[-1], samples)
+    return np.column_stack([np.interp(wanted, length, points[:, axis]) for axis in (0, 1)])
+
+
+@dataclass(frozen=True, eq=False)
+class SignSpace:
+    """The space whose coordinates are similarities to a few prototype signs.
+
+    Attributes:
+        prototypes: Normalised prototype strokes, shape (P, 64, 2).
+    """
+
+    prototypes: NDArray[np.float64]
+
+    def __init__(self, prototypes: Sequence[Stroke | ArrayLike]) -> None:
+        """Normalise the prototypes.
+
+        Raises:
+            InvalidInputError: If there are none, or one is not a stroke.
+        """
+        strokes = []
+        for i, prototype in enumerate(prototypes):
+            points = prototype.points if isinstance(prototype, Stroke) else prototype
+            strokes.append(normalised_sign(moving_points(points, f"prototype {i}")))
+        if not strokes:
+            raise InvalidInputError("prototypes", "at least one stroke", "none")
+        stacked = np.stack(strokes)
+        stacked.setflags(write=False)
+        object.__setattr__(self, "prototypes", stacked)
+
+    def embed(self, sign: ArrayLike) -> NDArray[np.float64]:
+        """Turn one sign into a point.
+
+        Args:
+            sign: Points, shape (T, 2), any unit.
+
+        Returns:
+            Similarity to each prototype, shape (P,), in (0, 1].
+        """
+        return np.asarray(self.embed_all([sign])[0])
+
+    def embed_all(self, signs: Sequence[ArrayLike]) -> NDArray[np.float64]:
+        """Turn signs into points, shape (len(signs), P).
+
+        Departure: the paper says only "similarity (after dynamic time warping)". Here both strokes are resampled to
+        64 points and brought to a common size, and the similarity is 1 / (1 + DTW distance / 64).
+        """
+        strokes = np.stack([normalised_sign(s) for s in signs])
+        return np.asarray(1.0 / (1.0 + pairwise_dtw(strokes, self.prototypes) / SAMPLES))
