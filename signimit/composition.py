@@ -1,0 +1,157 @@
+"""Sessions from strokes: what the imitator sees, and separately what nobody tells it (paper, section II-A).
+
+The `GroundTruth` is for evaluators. Nothing in a `DemonstrationSet` leads to it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.decks import StrokeDeck, as_deck
+from signimit.demonstrations import Demonstration, DemonstrationSet
+from signimit.exceptions import InvalidInputError
+from signimit.languages import PAPER_LANGUAGE, Language, Request
+from signimit.people.glyphs import GOAL_LABELS
+from signimit.scenes import CONTROL_TIME, drawn_path, reaching_path, sample_hand, sample_scene
+from signimit.strokes import Stroke, StrokeLibrary
+
+HALF_SIZE = (0.09, 0.12)  # m, half the larger side of a drawn movement
+LOOPS = 2  # how often a demonstrator draws the movement
+Strokes = StrokeLibrary | StrokeDeck
+
+
+@dataclass(frozen=True, eq=False)
+class GroundTruth:
+    """What was asked for in each demonstration. For evaluators, never for a learner.
+
+    Attributes:
+        language: The language that was spoken.
+        movement: Index of the movement, shape (N,); read-only.
+        focus: Index of the object, shape (N,); read-only.
+        templates: For each movement the loops that were demonstrated, each (T, 2), m, object's frame.
+    """
+
+    language: Language
+    movement: NDArray[np.int64]
+    focus: NDArray[np.int64]
+    templates: tuple[tuple[NDArray[np.float64], ...], ...]
+
+    @property
+    def movement_names(self) -> tuple[str, ...]:
+        """Label of the movement of each demonstration."""
+        return tuple(self.language.movements[m] for m in self.movement)
+
+    @property
+    def requests(self) -> tuple[Request, ...]:
+        """What was asked for in each demonstration."""
+        return tuple(Request(int(m), int(f)) for m, f in zip(self.movement, self.focus, strict=True))
+
+
+def compose_demonstrations(
+    language: Language, signs: Strokes, movements: Strokes, rng: np.random.Generator
+) -> tuple[DemonstrationSet, GroundTruth]:
+    """Make the demonstrations of a session, in random order.
+
+    Each is an utterance, a random scene, and a hand that starts anywhere, reaches for the movement's first point and
+    draws the movement about the object asked for, twice.
+
+    Args:
+        language: What is spoken.
+        signs: Strokes of the interactant; a `StrokeDeck` remembers which were used before.
+        movements: Strokes of the demonstrator.
+        rng: Decides everything.
+
+    Returns:
+        What the imitator may see, and the truth.
+
+    Raises:
+        UnknownNameError: If a library lacks a sign or a movement of the language.
+    """
+    signs, movements = as_deck(signs), as_deck(movements)
+    requests = [language.seen[i % len(language.seen)] for i in rng.permutation(len(language.seen) * language.repetitions)]
+    templates: list[list[NDArray[np.float64]]] = [[] for _ in language.movements]
+    demonstrations = []
+    for movement, focus in requests:
+        utterance = compose_utterance(language, signs, movement, focus, rng)
+        objects = sample_scene(rng, language.objects)
+        loops = compose_loops(language, movements, movement, rng)
+        templates[movement] += loops
+        hand = compose_path(sample_hand(rng), [loop + objects[focus] for loop in loops])
+        demonstrations.append(Demonstration(utterance, objects, hand, np.arange(len(hand)) * CONTROL_TIME))
+    movement_of, focus_of = np.array(requests, dtype=np.int64).T.copy()
+    movement_of.setflags(write=False)
+    focus_of.setflags(write=False)
+    truth = GroundTruth(language, movement_of, focus_of, tuple(tuple(t) for t in templates))
+    return DemonstrationSet(demonstrations), truth
+
+
+def compose_utterance(
+    language: Language, signs: Strokes, movement: int, focus: int, rng: np.random.Generator
+) -> tuple[NDArray[np.float64], ...]:
+    """Let the interactant ask for a movement about an object.
+
+    Returns:
+        W signs, each of shape (T_s, 2), in the order they are made.
+
+    Raises:
+        InvalidInputError: If the language has no such movement or object.
+        UnknownNameError: If the strokes lack a sign.
+    """
+    for name, value, count in (("movement", movement, len(language.movements)), ("focus", focus, language.objects)):
+        if not 0 <= value < count:
+            raise InvalidInputError(name, f"an index below {count}", f"{value}")
+    deck = as_deck(signs)
+    words = [language.focus_signs[focus]] * language.words
+    if language.filler_signs:
+        words = [language.filler_signs[int(rng.integers(len(language.filler_signs)))]] * language.words
+    words[language.focus_word] = language.focus_signs[focus]
+    words[language.movement_word] = language.movement_signs[movement]
+    return tuple(deck.deal(word, rng)[0].points for word in words)
+
+
+def compose_loops(
+    language: Language, movements: Strokes, movement: int, rng: np.random.Generator
+) -> list[NDArray[np.float64]]:
+    """Let the demonstrator draw a movement twice about an object at the origin, each (T, 2), m.
+
+    Both are of one random size and of one writer, two different strokes where there are two. A reach for a goal is made once.
+    """
+    label = language.movements[movement]
+    goal = label in GOAL_LABELS
+    half_size = rng.uniform(*HALF_SIZE)
+    strokes = as_deck(movements).deal(label, rng, 1 if goal else LOOPS)
+    return [drawn_path(stroke, half_size, end_at_object=goal) for stroke in strokes]
+
+
+def compose_path(start: NDArray[np.float64], loops: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Join a hand's start and the loops it draws by minimum-jerk reaches, shape (T, 2), every 20 ms."""
+    parts, hand = [], start
+    for loop in loops:
+        parts += [reaching_path(hand, loop[0]), loop]
+        hand = loop[-1]
+    return np.concatenate(parts)
+
+
+def movement_templates(
+    language: Language, movements: Strokes, rng: np.random.Generator, count: int = 4
+) -> tuple[tuple[NDArray[np.float64], ...], ...]:
+    """Draw each movement ``count`` times about an object at the origin, to judge performances by.
+
+    Returns:
+        For each movement its drawings, each (T, 2), m, object's frame.
+    """
+    deck = as_deck(movements)
+    drawings = [[compose_loops(language, deck, m, rng)[0] for _ in range(count)] for m in range(len(language.movements))]
+    return tuple(tuple(drawing) for drawing in drawings)
+
+
+def draw_prototypes(language: Language, signs: Strokes, rng: np.random.Generator) -> tuple[Stroke, ...]:
+    """Let the interactant draw the language's prototype signs once."""
+    deck = as_deck(signs)
+    return tuple(deck.deal(label, rng)[0] for label in language.prototypes)
+
+

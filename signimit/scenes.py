@@ -1,0 +1,66 @@
+"""Scenes on the table: where the objects lie, where a hand starts, and how it gets to where it wants to draw."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.exceptions import InvalidInputError
+from signimit.strokes import Stroke
+
+SCENE_HALF_EXTENT = (0.22, 0.18)  # m, objects and starts lie within this of the table's centre
+LEAST_SEPARATION = 0.14  # m, between two objects
+REACH_SPEED = 0.35  # m/s, mean
+CONTROL_TIME = 0.02  # s, sampling of hand paths
+DRAWING_SPEED = (0.25, 0.45)  # m/s, mean; recordings made with a stylus on a small screen are brought into it
+ATTEMPTS = 20_000
+
+
+def sample_scene(rng: np.random.Generator, objects: int = 3) -> NDArray[np.float64]:
+    """Draw positions of objects, shape (O, 2), m, table frame: uniform, at least 0.14 m apart.
+
+    Raises:
+        InvalidInputError: If that many objects do not fit.
+    """
+    for _ in range(ATTEMPTS):
+        scene = rng.uniform(-1.0, 1.0, (objects, 2)) * SCENE_HALF_EXTENT
+        gaps = np.linalg.norm(scene[:, None] - scene, axis=-1)
+        if (gaps[np.triu_indices(objects, 1)] >= LEAST_SEPARATION).all():
+            return scene
+    raise InvalidInputError("scene", f"objects that fit {LEAST_SEPARATION} m apart", f"{objects}")
+
+
+def sample_hand(rng: np.random.Generator) -> NDArray[np.float64]:
+    """Draw where a hand starts, shape (2,), m, table frame."""
+    return rng.uniform(-1.0, 1.0, 2) * SCENE_HALF_EXTENT
+
+
+def reaching_path(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a straight minimum-jerk reach, every 20 ms, from ``start`` to just short of ``end``, shape (T, 2).
+
+    Source: T. Flash and N. Hogan, J. Neuroscience 5, 1985 (doi:10.1523/JNEUROSCI.05-07-01688.1985).
+    """
+    steps = max(2, round(float(np.linalg.norm(end - start)) / REACH_SPEED / CONTROL_TIME))
+    s = np.linspace(0.0, 1.0, steps, endpoint=False)[:, None]
+    path: NDArray[np.float64] = start + (end - start) * (10 * s**3 - 15 * s**4 + 6 * s**5)
+    return path
+
+
+def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) -> NDArray[np.float64]:
+    """Return a stroke as a hand draws it about an object at the origin, every 20 ms, shape (T, 2), m.
+
+    The person's own time profile is kept; the whole is slowed or hastened into a mean speed that hands have.
+
+    Args:
+        stroke: The stroke, any unit.
+        half_size: Half of the larger side of its bounding box on the table, m.
+        end_at_object: Put the last point at the origin, not the centre of the bounding box.
+    """
+    low, high = stroke.points.min(axis=0), stroke.points.max(axis=0)
+    origin = stroke.points[-1] if end_at_object else (low + high) / 2.0
+    points = (stroke.points - origin) * (2.0 * half_size / float((high - low).max()))
+    times = stroke.times - stroke.times[0]
+    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    duration = float(np.clip(times[-1], length / DRAWING_SPEED[1], length / DRAWING_SPEED[0]))
+    ticks = np.linspace(0.0, times[-1], max(2, round(duration / CONTROL_TIME) + 1))
+    return np.column_stack([np.interp(ticks, times, points[:, axis]) for axis in (0, 1)])
