@@ -1,0 +1,18 @@
+"""Gymnasium environments in which instructions are unlabelled motion.
+
+Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/TabletopHand-v0``.
+"""
+
+import gymnasium as _gym
+
+from signimit_envs.exceptions import RenderingError as RenderingError
+from signimit_envs.scene import CONTROL_RATE as CONTROL_RATE
+from signimit_envs.situations import Request as Request
+from signimit_envs.tabletop import TabletopEnv as TabletopEnv
+from signimit_envs.tabletop_hand import TabletopHandEnv as TabletopHandEnv
+
+EPISODE_SECONDS = 12
+ENV_IDS = ("signimit/Tabletop-v0", "signimit/TabletopHand-v0")
+
+for _id, _env in zip(ENV_IDS, ("tabletop:TabletopEnv", "tabletop_hand:TabletopHandEnv"), strict=True):
+    _gym.register(id=_id, entry_point=f"signimit_envs.{_env}", max_episode_steps=EPISODE_SECONDS * CONTROL_RATE)

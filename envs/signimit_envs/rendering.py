@@ -1,0 +1,158 @@
+"""Pictures of the scene, with a display or without one."""
+
+from __future__ import annotations
+
+import functools
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit_envs.exceptions import RenderingError
+
+INSTALL = "On Debian or Ubuntu: apt-get install -y libosmesa6 (or libegl1 libgl1-mesa-dri)."
+_PROBE = (
+    "import mujoco\n"
+    "renderer = mujoco.Renderer(mujoco.MjModel.from_xml_string('<mujoco/>'), 16, 16)\n"
+    "renderer.update_scene(mujoco.MjData(renderer.model))\n"
+    "renderer.render(); renderer.close()"
+)
+_PROBE_SECONDS = 60
+
+
+def has_display() -> bool:
+    """Tell whether a window can be opened: on Linux only where a display is set."""
+    return sys.platform != "linux" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+@functools.cache
+def choose_backend() -> str:
+    """Choose what draws: the user's MUJOCO_GL, else the first of glfw, egl and osmesa that works here.
+
+    Each candidate is tried in a process of its own, because a failed one spoils OpenGL for the rest of the process.
+
+    Returns:
+        Name of the backend; empty where MuJoCo's own choice is right (macOS, Windows).
+
+    Raises:
+        RenderingError: If none of them works.
+    """
+    chosen = os.environ.get("MUJOCO_GL", "").lower().strip()
+    if chosen or sys.platform != "linux":
+        return chosen
+    already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
+    for backend in (*(("glfw",) if has_display() else ()), "egl", "osmesa"):
+        if already in ("", "glx", backend) and _works(backend):
+            return backend
+    raise RenderingError("no OpenGL library was found", INSTALL)
+
+
+def _works(backend: str) -> bool:
+    environment = {**os.environ, "MUJOCO_GL": backend}
+    command = [sys.executable, "-c", _PROBE]
+    try:
+        done = subprocess.run(command, env=environment, capture_output=True, timeout=_PROBE_SECONDS, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return done.returncode == 0
+
+
+def _select(backend: str) -> None:
+    """Make MuJoCo's renderers use a backend that was not named in MUJOCO_GL.
+
+    Setting MUJOCO_GL would come too late, MuJoCo reads it as it is imported; its own switch is a private one.
+    """
+    if os.environ.get("MUJOCO_GL") or not backend:
+        return
+    from mujoco.rendering.classic import gl_context
+
+    if backend == "egl":
+        from mujoco.egl import GLContext
+    elif backend == "osmesa":
+        from mujoco.osmesa import GLContext
+    else:
+        from mujoco.glfw import GLContext
+    gl_context.GLContext = GLContext
+
+
+class OffscreenView:
+    """Draws frames into arrays. OpenGL is looked for at the first frame, not before."""
+
+    def __init__(self, model: mujoco.MjModel, width: int = 480, height: int = 480) -> None:
+        """Remember what to draw, and how large, in pixels (at most 1280 each way)."""
+        self._model, self._width, self._height = model, width, height
+        self._renderer: mujoco.Renderer | None = None
+
+    def frame(
+        self,
+        data: mujoco.MjData,
+        camera: str = "perspective",
+        decorate: Callable[[mujoco.MjvScene], None] | None = None,
+    ) -> NDArray[np.uint8]:
+        """Draw one frame.
+
+        Args:
+            data: The state to draw.
+            camera: ``"perspective"`` or ``"top"``.
+            decorate: May add geometry to the scene before it is drawn, e.g. a trail.
+
+        Returns:
+            Shape (height, width, 3), red, green, blue.
+
+        Raises:
+            RenderingError: If there is no OpenGL.
+        """
+        renderer = self._renderer or self._open()
+        renderer.update_scene(data, camera)
+        if decorate is not None:
+            decorate(renderer.scene)
+        return np.array(renderer.render())
+
+    def _open(self) -> mujoco.Renderer:
+        backend = choose_backend()
+        _select(backend)
+        try:
+            self._renderer = mujoco.Renderer(self._model, self._height, self._width)
+        except (mujoco.FatalError, ImportError, RuntimeError, AttributeError) as error:
+            raise RenderingError(f"OpenGL through {backend or 'the system'} failed ({error})", INSTALL) from error
+        return self._renderer
+
+    def close(self) -> None:
+        """Free what OpenGL holds; may be called again."""
+        if self._renderer is not None:
+            self._renderer.close()
+            self._renderer = None
+
+
+class WindowView:
+    """Shows the scene in MuJoCo's interactive viewer."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        """Remember what to show.
+
+        Raises:
+            RenderingError: If there is no display. The viewer itself would end the process.
+        """
+        if not has_display():
+            raise RenderingError("there is no display for render_mode='human'", "Use render_mode='rgb_array'.")
+        self._model = model
+        self._viewer: Any = None
+
+    def show(self, data: mujoco.MjData) -> None:
+        """Bring the window up to date, opening it at the first call."""
+        if self._viewer is None:
+            import mujoco.viewer
+
+            self._viewer = mujoco.viewer.launch_passive(self._model, data, show_left_ui=False, show_right_ui=False)
+        self._viewer.sync()
+
+    def close(self) -> None:
+        """Close the window; may be called again."""
+        if self._viewer is not None:
+            self._viewer.close()
+            self._viewer = None

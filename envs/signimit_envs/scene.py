@@ -1,0 +1,67 @@
+"""The MuJoCo scene: where it is, how big it is, and how it is compiled."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+import mujoco
+import numpy as np
+
+import signimit_assets
+from signimit import InvalidInputError
+
+WORKSPACE = np.array([0.42, 0.38])  # m, half sizes of the area that the hand surely reaches
+OBJECT_AREA = np.array([0.22, 0.18])  # m, half sizes of the area where objects and hand are put at random
+TABLE = np.array([0.56, 0.50])  # m, half sizes of the table's top
+SEPARATION = 0.14  # m, least distance between objects put at random
+CONTROL_RATE = 50  # Hz
+SUBSTEPS = 20  # physics steps in a control step
+MAX_JOINT_SPEED = 3.5  # rad/s
+OBJECT_COUNTS = range(2, 7)
+for _array in (WORKSPACE, OBJECT_AREA, TABLE):
+    _array.setflags(write=False)
+
+_EXTRA_OBJECTS = (  # name of the colour, rgba, geom type, size, height of its middle
+    ("violet", (0.50, 0.30, 0.68, 1), mujoco.mjtGeom.mjGEOM_ELLIPSOID, (0.036, 0.036, 0.046), 0.0),
+    ("orange", (0.88, 0.46, 0.10, 1), mujoco.mjtGeom.mjGEOM_BOX, (0.046, 0.017, 0.022), 0.022),
+    ("teal", (0.10, 0.56, 0.58, 1), mujoco.mjtGeom.mjGEOM_CAPSULE, (0.017, 0.026, 0.0), 0.026),
+)
+OBJECT_NAMES = ("red", "green", "blue", *(name for name, *_ in _EXTRA_OBJECTS))
+
+
+def compile_scene(objects: int = 3) -> mujoco.MjModel:
+    """Compile the table, the arm and some objects.
+
+    Args:
+        objects: How many objects, 2 to 6; `OBJECT_NAMES` has their colours.
+
+    Raises:
+        InvalidInputError: If the number of objects is another.
+    """
+    if objects not in OBJECT_COUNTS:
+        raise InvalidInputError("objects", f"{OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]}", repr(objects))
+    with resources.as_file(resources.files(signimit_assets)) as folder:
+        spec = mujoco.MjSpec.from_file(str(folder / "tabletop.xml"))
+        for number in range(objects, 3):
+            spec.delete(spec.body(f"object_{number}"))
+        for number in range(3, objects):
+            _add_object(spec, number)
+        return spec.compile()
+
+
+def _add_object(spec: mujoco.MjSpec, number: int) -> None:
+    _, rgba, shape, size, height = _EXTRA_OBJECTS[number - 3]
+    body = spec.worldbody.add_body(name=f"object_{number}", mocap=True)
+    unseen = {"contype": 0, "conaffinity": 0, "group": 1}
+    body.add_geom(type=shape, size=size, pos=(0, 0, height), rgba=rgba, **unseen)
+
+
+def object_bodies(model: mujoco.MjModel) -> list[int]:
+    """Return the mocap numbers of the objects, in order."""
+    count = model.nmocap
+    return [int(model.body_mocapid[model.body(f"object_{number}").id]) for number in range(count)]
+
+
+def home_posture(model: mujoco.MjModel) -> np.ndarray:
+    """Return the joint angles that the arm bends towards, shape (3,), rad."""
+    return np.array(model.key("home").qpos)

@@ -1,0 +1,125 @@
+"""What an episode starts from: a scene, a request and the signs that make it, given or drawn at random."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit import InvalidInputError, UnknownNameError
+from signimit.signs import SAMPLES, normalised_sign
+from signimit.validation import finite_array
+from signimit_envs.people import People
+from signimit_envs.scene import OBJECT_AREA, SEPARATION, TABLE, WORKSPACE
+
+OPTIONS = ("movement", "focus", "objects", "hand", "signs")
+WORDS = 2
+
+
+class Request(NamedTuple):
+    """What the signs ask for.
+
+    Attributes:
+        movement: Number of the movement.
+        focus: Number of the object.
+    """
+
+    movement: int
+    focus: int
+
+
+class Situation(NamedTuple):
+    """The start of an episode.
+
+    Attributes:
+        request: What is asked for.
+        objects: Object positions, shape (O, 2), m.
+        hand: Position of the hand, shape (2,), m.
+        signs: The signs, shape (2, 64, 2), evenly resampled, centred, within [-1, 1].
+    """
+
+    request: Request
+    objects: NDArray[np.float64]
+    hand: NDArray[np.float64]
+    signs: NDArray[np.float64]
+
+
+def draw_situation(
+    options: Mapping[str, Any] | None, people: People, objects: int, rng: np.random.Generator
+) -> Situation:
+    """Take from the options what they have, and draw the rest.
+
+    Args:
+        options: Any of movement, focus, objects, hand and signs.
+        people: Who makes the signs.
+        objects: Number of objects O.
+        rng: Source of everything that is drawn.
+
+    Raises:
+        UnknownNameError: If an option is none of these.
+        InvalidInputError: If an option cannot be used.
+    """
+    given = {name: value for name, value in (options or {}).items() if value is not None}
+    for name in given:
+        if name not in OPTIONS:
+            raise UnknownNameError("reset option", name, OPTIONS)
+    request = Request(
+        _number(given.get("movement"), "movement", len(people.movements), rng),
+        _number(given.get("focus"), "focus", objects, rng),
+    )
+    places = _inside(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
+    hand = _inside(given["hand"], "hand", (2,), WORKSPACE) if "hand" in given else None
+    signs = _given_signs(given["signs"]) if "signs" in given else None
+    return Situation(
+        request,
+        _scattered(objects, rng) if places is None else places,
+        rng.uniform(-OBJECT_AREA, OBJECT_AREA) if hand is None else hand,
+        np.stack([normalised_sign(s) for s in people.speak(*request, rng)]) if signs is None else signs,
+    )
+
+
+def _number(value: object, name: str, count: int, rng: np.random.Generator) -> int:
+    if value is None:
+        return int(rng.integers(count))
+    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not (whole and 0 <= int(value) < count):  # type: ignore[call-overload]
+        raise InvalidInputError(f"reset option {name}", f"a whole number from 0 to {count - 1}", repr(value))
+    return int(value)  # type: ignore[call-overload, no-any-return]
+
+
+def _inside(value: Any, name: str, shape: tuple[int, ...], half: NDArray[np.float64]) -> NDArray[np.float64]:
+    points = finite_array(value, f"reset option {name}", shape)
+    outside = np.argwhere((np.abs(points) > half + 1e-9).any(axis=-1))
+    if len(outside):
+        found = points[tuple(outside[0])]
+        area = f"positions with |x| <= {half[0]:g} m and |y| <= {half[1]:g} m"
+        raise InvalidInputError(f"reset option {name}", area, f"({found[0]:g}, {found[1]:g})")
+    return points
+
+
+def _given_signs(value: Any) -> NDArray[np.float64]:
+    try:
+        signs = list(value)
+    except TypeError:
+        signs = []
+    if len(signs) != WORDS:
+        found = f"{len(signs)}" if signs else type(value).__name__
+        raise InvalidInputError("reset option signs", f"{WORDS} strokes of shape (T, 2)", found)
+    out = np.empty((WORDS, SAMPLES, 2))
+    for number, sign in enumerate(signs):
+        try:
+            out[number] = normalised_sign(getattr(sign, "points", sign))
+        except InvalidInputError as error:
+            raise error.inside(f"reset option signs: {number}") from None
+    return out
+
+
+def _scattered(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Draw positions of objects that keep their distance from each other, shape (count, 2), m."""
+    while True:
+        places = rng.uniform(-OBJECT_AREA, OBJECT_AREA, (count, 2))
+        gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
+        if (gaps[np.triu_indices(count, 1)] >= SEPARATION).all():
+            return places
