@@ -72,7 +72,9 @@ def compose_demonstrations(
         UnknownNameError: If a library lacks a sign or a movement of the language.
     """
     signs, movements = as_deck(signs), as_deck(movements)
-    requests = [language.seen[i % len(language.seen)] for i in rng.permutation(len(language.seen) * language.repetitions)]
+    requests = [
+        language.seen[i % len(language.seen)] for i in rng.permutation(len(language.seen) * language.repetitions)
+    ]
     templates: list[list[NDArray[np.float64]]] = [[] for _ in language.movements]
     demonstrations = []
     for movement, focus in requests:
@@ -145,7 +147,9 @@ def movement_templates(
         For each movement its drawings, each (T, 2), m, object's frame.
     """
     deck = as_deck(movements)
-    drawings = [[compose_loops(language, deck, m, rng)[0] for _ in range(count)] for m in range(len(language.movements))]
+    drawings = [
+        [compose_loops(language, deck, m, rng)[0] for _ in range(count)] for m in range(len(language.movements))
+    ]
     return tuple(tuple(drawing) for drawing in drawings)
 
 
@@ -153,5 +157,3 @@ def draw_prototypes(language: Language, signs: Strokes, rng: np.random.Generator
     """Let the interactant draw the language's prototype signs once."""
     deck = as_deck(signs)
     return tuple(deck.deal(label, rng)[0] for label in language.prototypes)
-
-

@@ -12,7 +12,7 @@ SCENE_HALF_EXTENT = (0.22, 0.18)  # m, objects and starts lie within this of the
 LEAST_SEPARATION = 0.14  # m, between two objects
 REACH_SPEED = 0.35  # m/s, mean
 CONTROL_TIME = 0.02  # s, sampling of hand paths
-DRAWING_SPEED = (0.25, 0.45)  # m/s, mean; recordings made with a stylus on a small screen are brought into it
+DRAWING_SPEED = (0.2, 0.4)  # m/s, mean; recordings made with a stylus on a small screen are brought into it
 ATTEMPTS = 20_000
 
 

@@ -1,4 +1,7 @@
-"""Synthetic people and what they draw. Nobody real made these strokes; they are called synthetic wherever they appear."""
+"""Synthetic people and what they draw.
+
+Nobody real made these strokes; they are called synthetic wherever they appear.
+"""
 
 from signimit.people.glyphs import GOAL_LABELS as GOAL_LABELS
 from signimit.people.glyphs import MOVEMENT_LABELS as MOVEMENT_LABELS

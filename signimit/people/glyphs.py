@@ -1,8 +1,12 @@
 """What people draw: digits, movements about an object, and reaches, as virtual targets and arcs.
 
-Unit: half the height of the drawing; x right, y up, origin at the centre (for reaches: at the object). Senses are those of
-most right-handed people, and of the public recordings we looked at: closed figures start at the top, or top left, and run
-counter-clockwise, with one exception, the circle, see `MOVEMENTS`.
+Unit: half the height of the drawing; x right, y up, origin at the centre (for reaches: at the object).
+
+Senses of rotation: polygons run counter-clockwise from the top or top left, as nearly everybody draws them in public
+recordings. The circle runs clockwise. Most people draw it counter-clockwise too, but the only mistake that the
+paper reports is to take its two triangles, and never its circle, for one movement (section III), which fits a circle drawn
+against them; one drawn in their sense is much harder to tell from a triangle by directions of motion. That circle is here as
+well, as "circle, other way".
 """
 
 from __future__ import annotations
@@ -76,7 +80,7 @@ SIGNS: Mapping[str, Glyph] = MappingProxyType(
 
 MOVEMENTS: Mapping[str, Glyph] = MappingProxyType(
     {
-        "circle": _round([1.0] * 5, 90, 90),
+        "circle": _round([1.0] * 5, -90, 90),
         "triangle up": _polygon((0, 0.9), (-1, -0.85), (1, -0.85)),
         "triangle down": _polygon((-1, 0.85), (0, -0.9), (1, 0.85)),
         "square": _polygon((-0.95, 0.95), (-0.95, -0.95), (0.95, -0.95), (0.95, 0.95)),
@@ -89,6 +93,7 @@ MOVEMENTS: Mapping[str, Glyph] = MappingProxyType(
         ),
         "spiral": _round(np.linspace(0.15, 1.0, 10).tolist(), 90, 0),
         "star": _polygon((-0.62, -0.85), (0, 1), (0.62, -0.85), (-1, 0.3), (1, 0.3)),
+        "circle, other way": _round([1.0] * 5, 90, 90),
     }
 )  # fmt: skip
 """Movements about an object, which is at the origin."""

@@ -1,13 +1,14 @@
 """How a hand moves: the sigma-lognormal model of the kinematic theory of rapid movements.
 
-A drawing is a sequence of overlapping aimed strokes. Each takes the hand along a circular arc from one virtual target to the
-next, and its speed is a lognormal of time: what a long chain of neuromuscular processes does to an impulse. The velocity of
-the hand is the vector sum of the strokes that are under way, so the targets are approached, not hit: corners are
-rounded the more the strokes overlap, speed drops where the path bends, and no two bends are alike.
+A drawing is a sequence of overlapping aimed strokes. Each takes the hand along a circular arc from one virtual
+target to the next, and its speed is a lognormal of time: what a long chain of neuromuscular processes does to an
+impulse. The velocity of the hand is the vector sum of the strokes that are under way, so the targets are approached,
+not hit: corners are rounded the more the strokes overlap, speed drops where the path bends, and no two bends are alike.
 
-Sources: R. Plamondon, Biological Cybernetics 72, 1995 (doi:10.1007/BF00202785), the theory; C. O'Reilly and R. Plamondon,
-Pattern Recognition 42, 2009 (doi:10.1016/j.patcog.2008.10.017), sums of strokes in the plane; D. Berio et al., MOCO 2017
-(doi:10.1145/3077981.3078049), strokes described by duration, asymmetry and overlap instead of t0, μ and σ.
+Sources: R. Plamondon, Biological Cybernetics 72, 1995 (doi:10.1007/BF00202785), the theory; C. O'Reilly and
+R. Plamondon, Pattern Recognition 42, 2009 (doi:10.1016/j.patcog.2008.10.017), sums of strokes in the plane;
+D. Berio et al., MOCO 2017 (doi:10.1145/3077981.3078049), strokes described by duration, asymmetry and overlap instead
+of t0, μ and σ.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ndtr
 
-REACH = 3.0  # a lognormal stroke is taken to last from -3 to +3 standard deviations of log time: 99.7 % of its way
+REACH = 2.5  # a stroke is taken to last from -2.5 to +2.5 standard deviations of log time: 98.8 % of its way
 
 
 class MotorPlan(NamedTuple):
@@ -49,8 +50,8 @@ def onsets(plan: MotorPlan) -> NDArray[np.float64]:
 def progress(plan: MotorPlan, times: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the share of its way that each stroke has gone, shape (T, K), in [0, 1].
 
-    A lognormal with log-time deviation σ and delay μ covers the time from exp(μ - 3σ) to exp(μ + 3σ) after its impulse; μ
-    follows from the duration, and the impulse precedes the visible onset by exp(μ - 3σ).
+    A lognormal with log-time deviation σ and delay μ covers the time from exp(μ - 2.5σ) to exp(μ + 2.5σ) after its
+    impulse; μ follows from the duration, and the impulse precedes the visible onset by exp(μ - 2.5σ).
     """
     sigma = np.sqrt(-np.log1p(-plan.asymmetry))
     mu = np.log(plan.durations / (np.exp(REACH * sigma) - np.exp(-REACH * sigma)))  # (K,)
@@ -71,7 +72,8 @@ def trajectory(plan: MotorPlan, times: NDArray[np.float64]) -> NDArray[np.float6
     straight = np.abs(half) < 1e-9
     ratio = np.where(straight, w, np.sin(half * w) / np.where(straight, 1.0, np.sin(half)))
     way = (ratio * np.exp(1j * half * (w - 1.0))) @ chords  # (T,)
-    return plan.targets[0] + np.column_stack([way.real, way.imag])
+    points: NDArray[np.float64] = plan.targets[0] + np.column_stack([way.real, way.imag])
+    return points
 
 
 def total_duration(plan: MotorPlan) -> float:

@@ -62,14 +62,14 @@ class Style:
             aspect=float(np.exp(rng.normal(0.0, 0.12))),
             slant=rng.normal(0.08, 0.12),
             tilt=rng.normal(0.0, 0.05),
-            tempo=float(0.30 * np.exp(rng.normal(0.0, 0.15))),
+            tempo=float(0.36 * np.exp(rng.normal(0.0, 0.15))),
             fluency=rng.uniform(0.5, 0.62),
             roundness=rng.uniform(0.2, 0.5),
             bow=rng.normal(0.0, 0.12),
             asymmetry=rng.uniform(0.02, 0.1),
             closing=(float(gap[0]), float(gap[1])),
-            sloppiness=rng.uniform(0.04, 0.08),
-            tremor=rng.uniform(0.001, 0.004),
+            sloppiness=rng.uniform(0.02, 0.05),
+            tremor=rng.uniform(0.0004, 0.0015),
         )
 
 
@@ -79,7 +79,8 @@ class Person:
 
     Attributes:
         style: The style.
-        habits: For each label how this person's glyph differs from the usual one: displacements of the targets, (K + 1, 2).
+        habits: For each label how this person's glyph differs from the usual one: how far its targets are from the
+            usual ones, shape (K + 1, 2).
     """
 
     style: Style
@@ -136,7 +137,8 @@ class Person:
         c, s = np.cos(self.style.tilt), np.sin(self.style.tilt)
         root = np.sqrt(self.style.aspect)
         shear = np.array([[root, self.style.slant if sign else 0.0], [0.0, 1.0 / root]])
-        return np.array([[c, -s], [s, c]]) @ shear
+        shape: NDArray[np.float64] = np.array([[c, -s], [s, c]]) @ shear
+        return shape
 
     def _tremor(self, times: NDArray[np.float64], rng: np.random.Generator) -> NDArray[np.float64]:
         """Return physiological tremor, a narrow band about 10 Hz, shape (T, 2)."""
