@@ -1,0 +1,121 @@
+#!/bin/sh
+# Runs a program of this repository in an environment of its own (.venv), which the first call makes.
+#
+#   sh scripts/run.sh reproduce [options]    the main job; any other scripts/NAME.py goes by its name too
+#   sh scripts/run.sh test [pytest options]  the tests
+#
+# PYTHON chooses the interpreter (3.11 or newer), e.g. PYTHON=python3.12 sh scripts/run.sh test
+set -eu
+
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
+venv=$root/.venv
+
+say() { printf '%s\n' "run.sh: $*" >&2; }
+fail() { say "$*"; exit 1; }
+
+programs() {
+    for file in "$root"/scripts/*.py; do
+        name=$(basename "$file" .py)
+        case $name in _* | '*') ;; *) printf ' %s' "$name" ;; esac
+    done
+}
+
+find_python() {
+    for candidate in ${PYTHON:-python3 python3.14 python3.13 python3.12 python3.11 python}; do
+        if "$candidate" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+            command -v "$candidate"
+            return
+        fi
+    done
+    fail "needs Python 3.11 or newer, and found none as ${PYTHON:-python3}; install it, or say PYTHON=/path/to/python3.11 sh scripts/run.sh ..."
+}
+
+interpreter() { "$1" -c 'import sys; print(sys.base_prefix, sys.version)' 2>/dev/null; }
+
+# Everything that an environment depends on: it does not survive a move, another interpreter or other dependencies.
+wanted_stamp() {
+    interpreter "$1"
+    printf '%s\n' "$root"
+    cksum <"$root/pyproject.toml"
+}
+
+can_apt() { [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null 2>&1; }
+
+apt_install() {
+    log=$(mktemp)
+    if { apt-get update && DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=60 install -y --no-install-recommends "$@"; } </dev/null >"$log" 2>&1; then
+        rm -f "$log"
+    else
+        tail -n 3 "$log" >&2
+        rm -f "$log"
+        return 1
+    fi
+}
+
+has_venv() { "$1" -c 'import venv, ensurepip' 2>/dev/null; }
+
+make_venv() {
+    if [ "$(interpreter "$venv/bin/python")" = "$(interpreter "$1")" ] && "$venv/bin/python" -m pip --version >/dev/null 2>&1; then
+        return # whole, only its packages may be old
+    fi
+    if ! has_venv "$1" && can_apt; then
+        say "installing python3-venv"
+        apt_install python3-venv || true
+    fi
+    has_venv "$1" || fail "$1 cannot make environments; type: sudo apt-get install python3-venv"
+    "$1" -m venv --clear "$venv" || fail "could not make $venv; remove it and try again"
+}
+
+# Names a library that renders without a display, or fails: EGL without a vendor's driver renders nothing.
+has_gl() {
+    "$venv/bin/python" - <<'PYTHON'
+import ctypes.util as u, sys
+egl = u.find_library("EGL") and (u.find_library("EGL_mesa") or u.find_library("EGL_nvidia"))
+sys.exit(sys.platform == "linux" and not (u.find_library("OSMesa") or egl))
+PYTHON
+}
+
+offer_gl() {
+    if has_gl; then
+        return
+    fi
+    if can_apt; then
+        say "installing a software OpenGL library"
+        apt_install libosmesa6 libegl1 || true
+    fi
+    has_gl || say "no OpenGL library: going on without video; to have it, type: sudo apt-get install libosmesa6 libegl1"
+}
+
+# Makes the environment for "run" or "test" unless a stamp says that it is there. Stamps are written last, so that a
+# set-up that broke off is done again; an environment for tests runs programs too.
+ensure_environment() {
+    python=$(find_python)
+    wanted=$(wanted_stamp "$python")
+    if [ -x "$venv/bin/python" ] && [ "$(cat "$venv/.ready-for-$1" 2>/dev/null)" = "$wanted" ]; then
+        return
+    fi
+    say "setting up $venv, once; this takes a minute or two"
+    rm -f "$venv"/.ready-for-*
+    make_venv "$python"
+    extras=scripts,strokes
+    if [ "$1" = test ]; then extras=$extras,test; fi
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --editable "${root}[$extras]" </dev/null ||
+        fail "could not install the packages, pip's reason stands above; once it is mended the same command goes on"
+    offer_gl
+    if [ "$1" = test ]; then printf '%s\n' "$wanted" >"$venv/.ready-for-test"; fi
+    printf '%s\n' "$wanted" >"$venv/.ready-for-run"
+}
+
+[ $# -gt 0 ] || fail "say what to run: sh scripts/run.sh NAME [options], NAME one of: test$(programs)"
+what=$1
+shift
+
+if [ "$what" = test ]; then
+    ensure_environment test
+    cd "$root"
+    exec "$venv/bin/python" -m pytest "$@"
+fi
+case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
+[ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test$(programs)"
+ensure_environment run
+exec "$venv/bin/python" "$root/scripts/$what.py" "$@"
