@@ -14,9 +14,13 @@ from numpy.typing import NDArray
 from signimit.decks import StrokeDeck, as_deck
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import InvalidInputError
-from signimit.languages import PAPER_LANGUAGE, Language, Request
+from signimit.languages import PAPER_LANGUAGE as PAPER_LANGUAGE
+from signimit.languages import Language as Language
+from signimit.languages import Request as Request
 from signimit.people.glyphs import GOAL_LABELS
-from signimit.scenes import CONTROL_TIME, drawn_path, reaching_path, sample_hand, sample_scene
+from signimit.scenes import drawn_path, reaching_path, sample_times
+from signimit.scenes import sample_hand as sample_hand
+from signimit.scenes import sample_scene as sample_scene
 from signimit.strokes import Stroke, StrokeLibrary
 
 HALF_SIZE = (0.09, 0.12)  # m, half the larger side of a drawn movement
@@ -83,7 +87,7 @@ def compose_demonstrations(
         loops = compose_loops(language, movements, movement, rng)
         templates[movement] += loops
         hand = compose_path(sample_hand(rng), [loop + objects[focus] for loop in loops])
-        demonstrations.append(Demonstration(utterance, objects, hand, np.arange(len(hand)) * CONTROL_TIME))
+        demonstrations.append(Demonstration(utterance, objects, hand, sample_times(len(hand))))
     movement_of, focus_of = np.array(requests, dtype=np.int64).T.copy()
     movement_of.setflags(write=False)
     focus_of.setflags(write=False)
@@ -120,7 +124,8 @@ def compose_loops(
 ) -> list[NDArray[np.float64]]:
     """Let the demonstrator draw a movement twice about an object at the origin, each (T, 2), m.
 
-    Both are of one random size and of one writer, two different strokes where there are two. A reach for a goal is made once.
+    Both are of one random size and by one writer, two different strokes where there are two. A reach for a goal is made
+    once.
     """
     label = language.movements[movement]
     goal = label in GOAL_LABELS

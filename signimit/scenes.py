@@ -64,3 +64,9 @@ def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) ->
     duration = float(np.clip(times[-1], length / DRAWING_SPEED[1], length / DRAWING_SPEED[0]))
     ticks = np.linspace(0.0, times[-1], max(2, round(duration / CONTROL_TIME) + 1))
     return np.column_stack([np.interp(ticks, times, points[:, axis]) for axis in (0, 1)])
+
+
+def sample_times(count: int) -> NDArray[np.float64]:
+    """Return when a hand path was sampled, every 20 ms from 0, shape (T,), s."""
+    times: NDArray[np.float64] = np.arange(count) * CONTROL_TIME
+    return times

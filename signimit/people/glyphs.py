@@ -3,10 +3,10 @@
 Unit: half the height of the drawing; x right, y up, origin at the centre (for reaches: at the object).
 
 Senses of rotation: polygons run counter-clockwise from the top or top left, as nearly everybody draws them in public
-recordings. The circle runs clockwise. Most people draw it counter-clockwise too, but the only mistake that the
-paper reports is to take its two triangles, and never its circle, for one movement (section III), which fits a circle drawn
-against them; one drawn in their sense is much harder to tell from a triangle by directions of motion. That circle is here as
-well, as "circle, other way".
+recordings. The circle runs clockwise. Most people draw it counter-clockwise too, but the only mistake that the paper
+reports is to take its two triangles, and never its circle, for one movement (section III), which fits a circle drawn
+against them; one drawn in their sense is much harder to tell from a triangle by directions of motion. That circle is
+here as well, as "circle, other way".
 """
 
 from __future__ import annotations
