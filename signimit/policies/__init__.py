@@ -3,6 +3,7 @@
 ============== ====================================================================================== =========
 kind           what                                                                                   state
 ============== ====================================================================================== =========
+path-following the course that the demonstrations share, followed at their speed; the default         phase
 knn            mean output of the 50 nearest demonstrated points, the paper's                         none
 ============== ====================================================================================== =========
 """
@@ -16,15 +17,16 @@ from numpy.typing import ArrayLike
 
 from signimit.exceptions import FileFormatError, UnknownNameError
 from signimit.policies.knn import KNearestPolicy as KNearestPolicy
+from signimit.policies.path_following import PathFollowingPolicy as PathFollowingPolicy
 from signimit.policies.protocol import CONTROL_PERIOD as CONTROL_PERIOD
 from signimit.policies.protocol import Policy as Policy
 from signimit.policies.protocol import StatefulPolicy as StatefulPolicy
 from signimit.policies.protocol import check_demonstrations
 from signimit.policies.storage import read_policy_arrays
 
-_CLASSES = {cls.kind: cls for cls in (KNearestPolicy,)}
+_CLASSES = {cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy)}
 POLICY_KINDS = tuple(_CLASSES)
-DEFAULT_POLICY = KNearestPolicy.kind
+DEFAULT_POLICY = PathFollowingPolicy.kind
 
 
 def make_policy(paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: str = DEFAULT_POLICY) -> Policy:

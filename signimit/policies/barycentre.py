@@ -1,0 +1,103 @@
+"""The mean of many passes over one course, in position and in time.
+
+DTW barycentre averaging (Petitjean et al. 2011, doi:10.1016/j.patcog.2010.09.013) for courses that repeat: aligned
+points are averaged node by node, so corners meet corners and stay sharp. A pass that is unlike the others counts less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.policies.arclength import SpacedPath, interpolate
+from signimit.policies.protocol import Array
+
+SHORTEST_PASS = 0.15  # of a round; less is the end of a stroke, not a pass
+UNLIKE = 1.5  # passes further from the median pass than so many typical distances count less
+
+
+class Pass(NamedTuple):
+    """One round of one demonstration; NaN where it did not go.
+
+    Attributes:
+        points: Position at each node, shape (M, 2), m.
+        durations: Time from each node to the next, shape (M,), s.
+    """
+
+    points: Array
+    durations: Array
+
+
+class MeanPass(NamedTuple):
+    """What passes have in common.
+
+    Attributes:
+        points: Mean position at each node, shape (M, 2), m.
+        durations: Mean time from each node to the next, shape (M,), s; zero where nobody showed it.
+        support: Weight of the passes through each node, shape (M,).
+    """
+
+    points: Array
+    durations: Array
+    support: Array
+
+
+def cut_passes(path: SpacedPath, phases: NDArray[np.int64], nodes: int) -> Iterator[Pass]:
+    """Cut an aligned demonstration into its rounds.
+
+    Args:
+        path: The demonstration.
+        phases: Node of each point, shape (n,), as `align_phases` gives them.
+        nodes: Number of nodes M of the course.
+    """
+    drawn = phases >= 0
+    first, points, stamps = _by_phase(phases[drawn], path.points[drawn], path.times[drawn])
+    last = first + len(points) - 1
+    for start in range(first - first % nodes, last + 1, nodes):
+        low, high = max(first, start), min(last, start + nodes - 1)
+        if high - low + 1 < SHORTEST_PASS * nodes:
+            continue
+        position, duration = np.full((nodes, 2), np.nan), np.full(nodes, np.nan)
+        position[low - start : high - start + 1] = points[low - first : high - first + 1]
+        steps = np.diff(stamps[low - first : high - first + 2])  # one stamp beyond, where there is one
+        duration[low - start : low - start + len(steps)] = steps
+        yield Pass(position, duration)
+
+
+def _by_phase(phases: NDArray[np.int64], points: Array, stamps: Array) -> tuple[int, Array, Array]:
+    """Return the first phase, and position and time at it and every phase after: means and interpolations."""
+    first = int(phases[0])
+    count = np.bincount(phases - first)
+    known = np.flatnonzero(count)
+    sums = [np.bincount(phases - first, values)[known] / count[known] for values in (*points.T, stamps)]
+    every = np.arange(len(count))
+    return first, interpolate(every, known, np.stack(sums[:2], axis=1)), np.interp(every, known, sums[2])
+
+
+def mean_pass(passes: Sequence[Pass]) -> MeanPass:
+    """Average passes node by node, an outlying pass with less weight (Huber's, squared)."""
+    points = np.array([p.points for p in passes])
+    durations = np.array([p.durations for p in passes])
+    seen, timed = np.isfinite(points[..., 0]), np.isfinite(durations)
+    weights = _pass_weights(points, seen)[:, None]
+    support = (weights * seen).sum(axis=0)
+    total = (weights[..., None] * np.where(seen[..., None], points, 0.0)).sum(axis=0)
+    spent = (weights * np.where(timed, durations, 0.0)).sum(axis=0)
+    tiny = np.finfo(np.float64).tiny
+    mean = total / np.maximum(support, tiny)[:, None]
+    return MeanPass(mean, spent / np.maximum((weights * timed).sum(axis=0), tiny), support)
+
+
+def _pass_weights(points: Array, seen: NDArray[np.bool_]) -> Array:
+    """Return a weight in (0, 1] for each pass by its mean distance from the median pass."""
+    median = np.zeros(points.shape[1:])
+    shown = seen.any(axis=0)
+    median[shown] = np.nanmedian(points[:, shown], axis=0)
+    gaps = np.where(seen, np.hypot(*np.moveaxis(points - median, -1, 0)), 0.0)
+    distance = gaps.sum(axis=1) / seen.sum(axis=1)
+    allowed = UNLIKE * np.median(distance)
+    weights: Array = np.minimum(1.0, allowed / np.maximum(distance, max(allowed, 1e-12))) ** 2
+    return weights
