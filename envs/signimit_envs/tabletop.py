@@ -28,7 +28,7 @@ _CAMERAS = ("perspective", "top")
 _MODES = ("rgb_array", "human")
 
 
-class TabletopEnv(gym.Env[Observation, NDArray[np.float32]]):
+class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
     """Obey two signs, unlabelled strokes, with a planar three-joint arm over a table with coloured objects."""
 
     metadata: dict[str, Any] = {  # noqa: RUF012 -- gymnasium declares it so

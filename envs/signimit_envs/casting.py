@@ -1,0 +1,92 @@
+"""Who plays in a session: one person makes the signs, another shows the movements."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+from signimit.exceptions import InvalidInputError, UnknownNameError
+from signimit.languages import Language
+from signimit.people import synthetic_library
+from signimit.strokes import Stroke, StrokeLibrary
+
+SIGN_SAMPLES, MOVEMENT_SAMPLES = 24, 12  # how often a synthetic person draws each label
+TRIANGLES = {"triangle up": 1.0, "triangle down": -1.0}
+
+
+@dataclass(frozen=True, eq=False)
+class Cast:
+    """The people of a session.
+
+    Attributes:
+        signs: Strokes of the interactant.
+        movements: Strokes of the demonstrator.
+        names: Who they are, for reports.
+    """
+
+    signs: StrokeLibrary
+    movements: StrokeLibrary
+    names: tuple[str, str]
+
+
+def synthetic_cast(language: Language, rng: np.random.Generator) -> Cast:
+    """Invent an interactant and a demonstrator who draw what a language needs."""
+    signs = synthetic_library(sign_labels(language), samples=SIGN_SAMPLES, rng=rng)
+    movements = synthetic_library(dict.fromkeys(language.movements), samples=MOVEMENT_SAMPLES, rng=rng)
+    return Cast(signs, movements, ("a synthetic person", "another synthetic person"))
+
+
+def load_person(
+    path: str | os.PathLike[str], name: str | None, labels: tuple[str, ...], rng: np.random.Generator
+) -> tuple[StrokeLibrary, str]:
+    """Take one person's strokes out of a library file.
+
+    Where labels ask for "triangle up" and "triangle down" and the library has only "triangle", apex up, its strokes
+    serve as the one and mirrored as the other.
+
+    Args:
+        path: File written by `StrokeLibrary.save`.
+        name: Whose strokes; left out, one of those who drew all labels is drawn, the others being less use.
+        labels: What the person must have drawn.
+        rng: Draws the person.
+
+    Returns:
+        The person's strokes and name.
+
+    Raises:
+        FileFormatError: If it is no such file.
+        UnknownNameError: If the library has no such person.
+        InvalidInputError: If the person, or everybody, lacks one of the labels.
+    """
+    library = with_triangles(StrokeLibrary.load(path))
+    if name is not None and name not in library.writers:
+        raise UnknownNameError(f"person in {os.fspath(path)}", name, sorted(set(library.writers)))
+    candidates = sorted(set(library.writers)) if name is None else [name]
+    drawn = Counter(zip(library.writers, library.labels, strict=True))
+    able = [w for w in candidates if all(drawn[w, label] for label in labels)]
+    if not able:
+        lacking = [label for label in labels if not any(drawn[w, label] for w in candidates)]
+        who = f"{os.fspath(path)}: {name or 'everybody'}"
+        raise InvalidInputError(who, f"strokes of {', '.join(labels)}", f"none of {', '.join(lacking) or 'some'}")
+    person = able[int(rng.integers(len(able)))]
+    return library.select(writer=person), person
+
+
+def with_triangles(library: StrokeLibrary) -> StrokeLibrary:
+    """Add "triangle up" and, mirrored, "triangle down" to a library that only has apex-up "triangle"."""
+    if "triangle" not in library.labels:
+        return library
+    drawn, missing = library.select("triangle"), [name for name in TRIANGLES if name not in library.labels]
+    for name in missing:
+        strokes = tuple(Stroke(s.points * (1.0, TRIANGLES[name]), s.times) for s in drawn)
+        library += StrokeLibrary(strokes, (name,) * len(strokes), drawn.writers)
+    return library
+
+
+def sign_labels(language: Language) -> tuple[str, ...]:
+    """Return the labels of all signs of a language, prototypes included, once each."""
+    words = (language.focus_signs, language.movement_signs, language.filler_signs, language.prototypes)
+    return tuple(dict.fromkeys(label for group in words for label in group))

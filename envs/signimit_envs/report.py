@@ -1,0 +1,129 @@
+"""What there is to say about a session: as a table to read, and as an object for JSON."""
+
+from __future__ import annotations
+
+import platform
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+from signimit.languages import Request
+from signimit.summary import object_name
+from signimit_envs.casting import Cast
+from signimit_envs.session import Reproduction, SessionResult
+from signimit_envs.verdicts import Share, failing_stage, judge_inference, restart_grouping
+
+FORMAT = 1
+PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
+
+
+def session_report(result: SessionResult, cast: Cast) -> dict[str, Any]:
+    """Tell everything about a session in what JSON can say; the same session gives the same object."""
+    plan, language = result.session.plan, result.session.plan.language
+    rows = [_reproduction_entry(result, r) for r in result.reproductions]
+    verdict = judge_inference(result.model, result.session.truth)
+    return {
+        "format": FORMAT,
+        "plan": {name: getattr(plan, name) for name in ("method", "policy", "seed", "attempts", "seconds")},
+        "people": {"interactant": cast.names[0], "demonstrator": cast.names[1]},
+        "versions": installed_versions(),
+        "movements": list(language.movements),
+        "inference": {
+            "grouping right": verdict.grouping,
+            "focus right": verdict.focus,
+            "word order right": verdict.word_order,
+            "demonstrations with the right focus": _share_entry(verdict.foci_right),
+            "grouping restarts right": _share_entry(restart_grouping(result)),
+        },
+        "obeyed": {name: _share_entry(share) for name, share in obeyed_shares(result).items()},
+        "summary": result.model.summary(),
+        "reproductions": rows,
+    }
+
+
+def obeyed_shares(result: SessionResult) -> dict[str, Share]:
+    """Count the commands that were obeyed: all, those about seen pairs and about unseen ones."""
+    reproductions = result.reproductions
+    return {
+        "all": Share.of(r.obeyed for r in reproductions),
+        "seen": Share.of(r.obeyed for r in reproductions if r.command.seen),
+        "unseen": Share.of(r.obeyed for r in reproductions if not r.command.seen),
+    }
+
+
+def session_table(result: SessionResult) -> str:
+    """Say in a table how each pair of signs was obeyed."""
+    lines = [f"{'movement':14s} {'about':6s} {'shown':6s} {'obeyed':>7s} {'path error':>11s} {'coverage':>9s} {'turns':>6s}"]
+    for request in result.session.plan.language.requests:
+        lines.append(_row(request, result))
+    for name, share in obeyed_shares(result).items():
+        lines.append(f"obeyed, {name}: {share}")
+    return "\n".join(lines)
+
+
+def inference_lines(result: SessionResult) -> str:
+    """Say whether grouping, focus and word order are right, and how often grouping is from other starts."""
+    verdict = judge_inference(result.model, result.session.truth)
+    return "\n".join(
+        [
+            f"grouping: {_word(verdict.grouping)}",
+            f"focus: {_word(verdict.focus)}, {verdict.foci_right.count} of {verdict.foci_right.total} demonstrations",
+            f"word order: {_word(verdict.word_order)}",
+            f"Algorithm 1 from other initial memberships: right in {restart_grouping(result)}",
+        ]
+    )
+
+
+def installed_versions() -> dict[str, str]:
+    """Return the versions of Python, of the platform and of what decides the numbers."""
+    versions = {"python": platform.python_version(), "platform": platform.platform()}
+    for package in PACKAGES:
+        try:
+            versions[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            versions[package] = "not installed"
+    return versions
+
+
+def _row(request: Request, result: SessionResult) -> str:
+    mine = [r for r in result.reproductions if r.command.request == request]
+    obeyed = Share.of(r.obeyed for r in mine)
+    error, coverage, turns = np.median([r.performance[2:5] for r in mine], axis=0)
+    movement = result.session.plan.language.movements[request.movement]
+    shown = "yes" if mine[0].command.seen else "never"
+    return (
+        f"{movement:14s} {object_name(request.focus):6s} {shown:6s} {obeyed.count:>4d}/{obeyed.total:<2d} "
+        f"{error:>11.2f} {coverage:>9.2f} {turns:>6.1f}"
+    )
+
+
+def _reproduction_entry(result: SessionResult, reproduction: Reproduction) -> dict[str, Any]:
+    command, performance = reproduction.command, reproduction.performance
+    return {
+        "movement asked for": result.session.plan.language.movements[command.request.movement],
+        "object asked for": object_name(command.request.focus),
+        "demonstrated": command.seen,
+        "obeyed": reproduction.obeyed,
+        "failing stage": failing_stage(result, reproduction),
+        "movement": performance.movement,
+        "focus": performance.focus,
+        "path_error": _finite(performance.path_error),
+        "coverage": performance.coverage,
+        "turns": performance.turns,
+        "confidence": reproduction.confidence,
+    }
+
+
+def _share_entry(share: Share) -> dict[str, Any]:
+    low, high = share.interval
+    return {"count": share.count, "total": share.total, "wilson 95 %": [low, high]}
+
+
+def _finite(value: float) -> float | None:
+    """JSON has no infinity."""
+    return value if np.isfinite(value) else None
+
+
+def _word(right: bool) -> str:
+    return "right" if right else "WRONG"

@@ -1,0 +1,205 @@
+"""A session as in the paper's section III: demonstrations, learning, and commands obeyed by the simulated arm."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.composition import GroundTruth, compose_demonstrations, compose_utterance, draw_prototypes
+from signimit.decks import StrokeDeck
+from signimit.demonstrations import DemonstrationSet
+from signimit.evaluation import Performance, performed
+from signimit.exceptions import InvalidInputError
+from signimit.languages import PAPER_LANGUAGE, Language, Request
+from signimit.frames import TablePolicy
+from signimit.learning import ImitationModel, learn
+from signimit.policies import DEFAULT_POLICY
+from signimit.scenes import sample_hand, sample_scene
+from signimit.strokes import Stroke
+from signimit_envs.casting import Cast
+from signimit_envs.tabletop_hand import TabletopHandEnv
+
+@dataclass(frozen=True, kw_only=True)
+class SessionPlan:
+    """What is done in a session.
+
+    Attributes:
+        language: What is spoken.
+        method: How the imitator learns.
+        policy: Kind of policy that moves the hand.
+        seed: Decides everything that happens, people apart.
+        attempts: How often each request is made of the imitator.
+        seconds: How long the imitator moves each time.
+    """
+
+    language: Language = PAPER_LANGUAGE
+    method: str = "paper"
+    policy: str = DEFAULT_POLICY
+    seed: int = 0
+    attempts: int = 4
+    seconds: float = 10.0
+
+    def __post_init__(self) -> None:
+        """Check the numbers.
+
+        Raises:
+            InvalidInputError: If there would be nothing to see.
+        """
+        if self.seed < 0:
+            raise InvalidInputError("seed", "zero or more", f"{self.seed}")
+        if self.attempts < 1:
+            raise InvalidInputError("attempts", "at least 1", f"{self.attempts}")
+        if not 1.0 <= self.seconds <= 600.0:
+            raise InvalidInputError("seconds", "1 to 600", f"{self.seconds}")
+
+
+class Command(NamedTuple):
+    """A request made of the imitator.
+
+    Attributes:
+        request: What is asked for; the imitator is not told.
+        signs: How, W strokes of shape (T_s, 2) that were not used before while unused ones were left.
+        objects: Where the objects are, shape (O, 2), m.
+        hand: Where the hand starts, shape (2,), m.
+        seen: Whether this request was among the demonstrations.
+    """
+
+    request: Request
+    signs: tuple[NDArray[np.float64], ...]
+    objects: NDArray[np.float64]
+    hand: NDArray[np.float64]
+    seen: bool
+
+
+Track = Callable[[Sequence[Command]], Iterable[Command]]
+
+
+class Reproduction(NamedTuple):
+    """How the imitator answered a command.
+
+    Attributes:
+        command: The command.
+        movement: Number of the movement that it understood, in its own numbering.
+        focus: Number of the object that it understood.
+        confidence: Its probability that both are right.
+        path: Where its hand was in every control step, shape (T, 2), m, table frame.
+        performance: What that was.
+    """
+
+    command: Command
+    movement: int
+    focus: int
+    confidence: float
+    path: NDArray[np.float64]
+    performance: Performance
+
+    @property
+    def obeyed(self) -> bool:
+        """Whether the hand did what was asked for."""
+        return (self.performance.movement, self.performance.focus) == self.command.request
+
+
+@dataclass(frozen=True, eq=False)
+class Session:
+    """What happens before the imitator does anything.
+
+    Attributes:
+        plan: How it was made.
+        demonstrations: What the imitator sees.
+        prototypes: The signs that span its sign space.
+        truth: What the demonstrations were; for judging only.
+        commands: What it will be asked for.
+    """
+
+    plan: SessionPlan
+    demonstrations: DemonstrationSet
+    prototypes: tuple[Stroke, ...]
+    truth: GroundTruth
+    commands: tuple[Command, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SessionResult:
+    """Everything that happened.
+
+    Attributes:
+        session: What the imitator saw and was asked for.
+        model: What it understood.
+        reproductions: What it did.
+    """
+
+    session: Session
+    model: ImitationModel
+    reproductions: tuple[Reproduction, ...]
+
+
+def compose_session(plan: SessionPlan, cast: Cast) -> Session:
+    """Let the people act: demonstrations, prototype signs, and the commands that will follow.
+
+    Raises:
+        UnknownNameError: If somebody cannot draw what the language needs.
+    """
+    rng, language = np.random.default_rng(plan.seed), plan.language
+    signs, movements = StrokeDeck(cast.signs), StrokeDeck(cast.movements)
+    demonstrations, truth = compose_demonstrations(language, signs, movements, rng)
+    prototypes = draw_prototypes(language, signs, rng)
+    commands = tuple(
+        Command(
+            request,
+            compose_utterance(language, signs, *request, rng),
+            sample_scene(rng, language.objects),
+            sample_hand(rng),
+            request not in language.held_back,
+        )
+        for request in language.requests
+        for _ in range(plan.attempts)
+    )
+    return Session(plan, demonstrations, prototypes, truth, commands)
+
+
+def run_session(plan: SessionPlan, cast: Cast, track: Track = iter) -> SessionResult:
+    """Run a session on the physics.
+
+    Args:
+        plan: What is done.
+        cast: Who makes the signs and shows the movements.
+        track: Passes the commands on as they are carried out, e.g. tqdm's progress bar.
+
+    Raises:
+        SignimitError: If something cannot be used.
+    """
+    session = compose_session(plan, cast)
+    model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
+    env = TabletopHandEnv(objects=plan.language.objects)
+    try:
+        reproductions = tuple(answer(command, model, session, env) for command in track(session.commands))
+    finally:
+        env.close()
+    return SessionResult(session, model, reproductions)
+
+
+def answer(command: Command, model: ImitationModel, session: Session, env: TabletopHandEnv) -> Reproduction:
+    """Let the imitator answer one command, and judge what its hand did by what the demonstrator's had done."""
+    response = model.respond(command.signs, command.objects)
+    path = move_hand(env, response.policy, command.objects, command.hand, session.plan.seconds)
+    performance = performed(path, command.objects, session.truth.templates)
+    return Reproduction(command, response.movement, response.focus, response.confidence, path, performance)
+
+
+def move_hand(env: TabletopHandEnv, policy: TablePolicy, objects: NDArray[np.float64], hand: NDArray[np.float64], seconds: float) -> NDArray[np.float64]:
+    """TEMPORARY."""
+    obs, _ = env.reset(options={"objects": objects, "hand": hand})
+    path = [obs["hand"]]
+    state = policy.start() if hasattr(policy, "start") else None
+    for _ in range(int(seconds * 50)):
+        if hasattr(policy, "step"):
+            state, velocity = policy.step(state, path[-1])
+        else:
+            velocity = policy(path[-1])
+        obs, *_ = env.step(np.clip(velocity / env.max_hand_speed, -1, 1))
+        path.append(obs["hand"])
+    return np.array(path)
