@@ -6,6 +6,8 @@ Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/Tableto
 import gymnasium as _gym
 
 from signimit_envs.exceptions import RenderingError as RenderingError
+from signimit_envs.reproduction import HandTrack as HandTrack
+from signimit_envs.reproduction import reproduce as reproduce
 from signimit_envs.scene import CONTROL_RATE as CONTROL_RATE
 from signimit_envs.situations import Request as Request
 from signimit_envs.tabletop import TabletopEnv as TabletopEnv

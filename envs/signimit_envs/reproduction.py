@@ -1,0 +1,85 @@
+"""A learned policy on the simulated arm: what it commands and where the hand goes (paper, section II-E)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit import InvalidInputError
+from signimit_envs.scene import CONTROL_RATE
+from signimit_envs.tabletop_hand import TabletopHandEnv
+
+Policy = Callable[[NDArray[np.float64]], ArrayLike]
+
+
+class HandTrack(NamedTuple):
+    """How the hand moved.
+
+    Attributes:
+        path: Where it was at the start and after every control step, shape (T + 1, 2), m, table frame.
+        commanded: Where each control step was to take it from where it was, shape (T, 2), m.
+    """
+
+    path: NDArray[np.float64]
+    commanded: NDArray[np.float64]
+
+
+def reproduce(
+    env: gym.Env[Any, Any],
+    policy: Policy,
+    objects: ArrayLike,
+    hand: ArrayLike,
+    seconds: float,
+    each_step: Callable[[], object] | None = None,
+) -> HandTrack:
+    """Let a policy move the simulated hand.
+
+    Args:
+        env: ``signimit/TabletopHand-v0``, wrapped or not; it is reset, and not closed.
+        policy: Hand position (2,), m, to hand velocity (2,), m/s. One that keeps a state has ``start() -> state`` and
+            ``step(state, hand) -> (state, velocity)``, and these are used.
+        objects: Where to put the objects, shape (O, 2), m.
+        hand: Where to put the hand, shape (2,), m.
+        seconds: How long to go on; cut short by a physics error only.
+        each_step: Called after the reset and after every control step, e.g. to draw a frame.
+
+    Raises:
+        InvalidInputError: If the environment is another one, the scene cannot be, or the policy commands what is not
+            finite.
+    """
+    arm = env.unwrapped
+    if not isinstance(arm, TabletopHandEnv):
+        raise InvalidInputError("environment", "signimit/TabletopHand-v0", type(arm).__name__)
+    observation, _ = arm.reset(options={"objects": objects, "hand": hand})
+    move = _with_state(policy)
+    path, commanded = [observation["hand"]], []
+    for _ in range(round(seconds * CONTROL_RATE)):
+        if each_step is not None:
+            each_step()
+        action = np.clip(move(path[-1]) / arm.max_hand_speed, -1.0, 1.0)
+        observation, _, terminated, _, _ = arm.step(action)
+        if terminated:
+            break
+        commanded.append(path[-1] + action * (arm.max_hand_speed / CONTROL_RATE))
+        path.append(observation["hand"])
+    if each_step is not None:
+        each_step()
+    return HandTrack(np.array(path), np.array(commanded).reshape(-1, 2))
+
+
+def _with_state(policy: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """Give policies with and without a state one face."""
+    if not (hasattr(policy, "start") and hasattr(policy, "step")):
+        return lambda hand: np.asarray(policy(hand), dtype=np.float64)
+    state = policy.start()
+
+    def move(hand: NDArray[np.float64]) -> NDArray[np.float64]:
+        nonlocal state
+        state, velocity = policy.step(state, hand)
+        return np.asarray(velocity, dtype=np.float64)
+
+    return move
