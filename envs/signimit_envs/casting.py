@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -32,24 +34,50 @@ class Cast:
     names: tuple[str, str]
 
 
-def synthetic_cast(language: Language, rng: np.random.Generator) -> Cast:
-    """Invent an interactant and a demonstrator who draw what a language needs."""
-    signs = synthetic_library(sign_labels(language), samples=SIGN_SAMPLES, rng=rng)
-    movements = synthetic_library(dict.fromkeys(language.movements), samples=MOVEMENT_SAMPLES, rng=rng)
-    return Cast(signs, movements, ("a synthetic person", "another synthetic person"))
+class Source(NamedTuple):
+    """Where a person comes from.
+
+    Attributes:
+        library: Stroke library file; none stands for a synthetic person.
+        person: Who of those in the library; none for anybody.
+    """
+
+    library: str | os.PathLike[str] | None = None
+    person: str | None = None
 
 
-def load_person(
-    path: str | os.PathLike[str], name: str | None, labels: tuple[str, ...], rng: np.random.Generator
-) -> tuple[StrokeLibrary, str]:
+SYNTHETIC = Source()
+
+
+def cast_people(
+    language: Language, rng: np.random.Generator, signer: Source = SYNTHETIC, mover: Source = SYNTHETIC
+) -> Cast:
+    """Find an interactant and a demonstrator who draw what a language needs; synthetic ones where none is given.
+
+    Raises:
+        SignimitError: If a file or a person in it cannot be used.
+    """
+    needs = ((signer, sign_labels(language), SIGN_SAMPLES), (mover, language.movements, MOVEMENT_SAMPLES))
+    people = []
+    for source, labels, samples in needs:
+        if source.library is not None:
+            people.append(load_person(source, labels, rng))
+        elif source.person is not None:
+            raise InvalidInputError(f"person {source.person!r}", "a stroke library to find them in", "none")
+        else:
+            people.append((synthetic_library(labels, samples=samples, rng=rng), "a synthetic person"))
+    (signs, interactant), (movements, demonstrator) = people
+    return Cast(signs, movements, (interactant, demonstrator))
+
+
+def load_person(source: Source, labels: Sequence[str], rng: np.random.Generator) -> tuple[StrokeLibrary, str]:
     """Take one person's strokes out of a library file.
 
     Where labels ask for "triangle up" and "triangle down" and the library has only "triangle", apex up, its strokes
     serve as the one and mirrored as the other.
 
     Args:
-        path: File written by `StrokeLibrary.save`.
-        name: Whose strokes; left out, one of those who drew all labels is drawn, the others being less use.
+        source: File written by `StrokeLibrary.save`, and whose strokes; if anybody's, somebody who drew all labels.
         labels: What the person must have drawn.
         rng: Draws the person.
 
@@ -61,15 +89,16 @@ def load_person(
         UnknownNameError: If the library has no such person.
         InvalidInputError: If the person, or everybody, lacks one of the labels.
     """
+    path, name = os.fspath(source.library or ""), source.person
     library = with_triangles(StrokeLibrary.load(path))
     if name is not None and name not in library.writers:
-        raise UnknownNameError(f"person in {os.fspath(path)}", name, sorted(set(library.writers)))
+        raise UnknownNameError(f"person in {path}", name, sorted(set(library.writers)))
     candidates = sorted(set(library.writers)) if name is None else [name]
     drawn = Counter(zip(library.writers, library.labels, strict=True))
     able = [w for w in candidates if all(drawn[w, label] for label in labels)]
     if not able:
         lacking = [label for label in labels if not any(drawn[w, label] for w in candidates)]
-        who = f"{os.fspath(path)}: {name or 'everybody'}"
+        who = f"{path}: {name or 'everybody'}"
         raise InvalidInputError(who, f"strokes of {', '.join(labels)}", f"none of {', '.join(lacking) or 'some'}")
     person = able[int(rng.integers(len(able)))]
     return library.select(writer=person), person

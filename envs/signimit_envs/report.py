@@ -54,7 +54,7 @@ def obeyed_shares(result: SessionResult) -> dict[str, Share]:
 
 def session_table(result: SessionResult) -> str:
     """Say in a table how each pair of signs was obeyed."""
-    lines = [f"{'movement':14s} {'about':6s} {'shown':6s} {'obeyed':>7s} {'path error':>11s} {'coverage':>9s} {'turns':>6s}"]
+    lines = ["movement       about  shown   obeyed  path error  coverage  turns"]
     for request in result.session.plan.language.requests:
         lines.append(_row(request, result))
     for name, share in obeyed_shares(result).items():

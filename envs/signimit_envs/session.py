@@ -9,19 +9,20 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.composition import GroundTruth, compose_demonstrations, compose_utterance, draw_prototypes
+from signimit.composition import GroundTruth, compose_demonstrations, compose_prototypes, compose_utterance
 from signimit.decks import StrokeDeck
 from signimit.demonstrations import DemonstrationSet
 from signimit.evaluation import Performance, performed
 from signimit.exceptions import InvalidInputError
-from signimit.languages import PAPER_LANGUAGE, Language, Request
 from signimit.frames import TablePolicy
+from signimit.languages import PAPER_LANGUAGE, Language, Request
 from signimit.learning import ImitationModel, learn
 from signimit.policies import DEFAULT_POLICY
 from signimit.scenes import sample_hand, sample_scene
 from signimit.strokes import Stroke
 from signimit_envs.casting import Cast
 from signimit_envs.tabletop_hand import TabletopHandEnv
+
 
 @dataclass(frozen=True, kw_only=True)
 class SessionPlan:
@@ -146,7 +147,7 @@ def compose_session(plan: SessionPlan, cast: Cast) -> Session:
     rng, language = np.random.default_rng(plan.seed), plan.language
     signs, movements = StrokeDeck(cast.signs), StrokeDeck(cast.movements)
     demonstrations, truth = compose_demonstrations(language, signs, movements, rng)
-    prototypes = draw_prototypes(language, signs, rng)
+    prototypes = compose_prototypes(language, signs, rng)
     commands = tuple(
         Command(
             request,
@@ -190,7 +191,9 @@ def answer(command: Command, model: ImitationModel, session: Session, env: Table
     return Reproduction(command, response.movement, response.focus, response.confidence, path, performance)
 
 
-def move_hand(env: TabletopHandEnv, policy: TablePolicy, objects: NDArray[np.float64], hand: NDArray[np.float64], seconds: float) -> NDArray[np.float64]:
+def move_hand(
+    env: TabletopHandEnv, policy: TablePolicy, objects: NDArray[np.float64], hand: NDArray[np.float64], seconds: float
+) -> NDArray[np.float64]:
     """TEMPORARY."""
     obs, _ = env.reset(options={"objects": objects, "hand": hand})
     path = [obs["hand"]]

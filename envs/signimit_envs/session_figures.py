@@ -1,0 +1,46 @@
+"""The paper's figures of a session, as files. Needs matplotlib."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit import figures
+from signimit.grouping import group_movements
+from signimit.similarity import maximum_similarities, policy_similarities
+from signimit_envs.session import SessionResult
+from signimit_envs.verdicts import session_distances
+
+DOTS_PER_INCH = 130
+
+
+def write_figures(result: SessionResult, folder: Path) -> None:
+    """Write figures 4 to 7 and the memberships as PNG."""
+    model, language = result.model, result.session.plan.language
+    distances = session_distances(result)
+    similarity = maximum_similarities(distances)
+    history = model.diagnostics.get("history")
+    if history is None:  # a method without Algorithm 1; show what the paper's would have done
+        history = group_movements(similarity, rng=result.session.plan.seed).history
+    drawn = {
+        "figure4": figures.draw_demonstrations(result.session.demonstrations, model.labels, model.focus),
+        "figure5": figures.draw_similarities(policy_similarities(distances), model.labels),
+        "figure6": figures.draw_maximum_similarity(similarity, model.labels),
+        "figure7": figures.draw_reproductions(paths_about_objects(result), language.movements, language.held_back),
+        "memberships": figures.draw_memberships(history, model.labels),
+    }
+    for name, figure in drawn.items():
+        # Without the date and version of the software the same session gives the same bytes.
+        figure.savefig(folder / f"{name}.png", dpi=DOTS_PER_INCH, metadata={"Software": None})
+
+
+def paths_about_objects(result: SessionResult) -> dict[tuple[int, int], list[NDArray[np.float64]]]:
+    """Return the paths of the hand in the frame of the object asked for, each (T, 2), m, by request."""
+    paths = defaultdict(list)
+    for reproduction in result.reproductions:
+        command = reproduction.command
+        paths[tuple(command.request)].append(reproduction.path - command.objects[command.request.focus])
+    return dict(paths)

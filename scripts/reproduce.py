@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""The main job: demonstrations, learning, and 36 commands obeyed by a simulated arm."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from signimit.command_line import run_program
+from signimit.output import whole_files
+from signimit.policies import DEFAULT_POLICY
+from signimit_envs.casting import Source, cast_people
+from signimit_envs.report import inference_lines, session_report, session_table
+from signimit_envs.session import SessionPlan, run_session
+
+
+def main(
+    out: Path = Path("out/reproduce"),
+    method: str = "paper",
+    policy: str = DEFAULT_POLICY,
+    seed: int = 0,
+    signs: Path | None = None,
+    signer: str | None = None,
+    movements: Path | None = None,
+    mover: str | None = None,
+    video: bool = True,
+) -> None:
+    """Watch 12 demonstrations, learn, and obey 36 commands with a simulated arm, four for each pair of signs.
+
+    Writes results.json, the paper's figures 4 to 7, the memberships, grid.mp4 and story.mp4.
+
+    Args:
+        out: Folder for the results.
+        method: How to learn; "paper" is the paper.
+        policy: Kind of policy that moves the hand.
+        seed: Decides people, scenes and everything else that is drawn.
+        signs: Stroke library of real people (see import_strokes.py) who make the signs; left out, a synthetic person.
+        signer: Whose strokes of that library; left out, somebody's.
+        movements: Stroke library of real people who show the movements; left out, a synthetic person.
+        mover: Whose strokes of that library; left out, somebody's.
+        video: Whether to make the videos.
+    """
+    from tqdm import tqdm
+
+    from signimit_envs.session_figures import write_figures
+
+    plan = SessionPlan(method=method, policy=policy, seed=seed)
+    rng = np.random.default_rng([seed, 1])
+    cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
+    print(f"{cast.names[0]} makes the signs, {cast.names[1]} shows the movements.")
+    result = run_session(plan, cast, lambda commands: tqdm(commands, "obeying", unit="command"))
+    print(f"\n{result.model.summary()}\n\n{inference_lines(result)}\n\n{session_table(result)}\n")
+    with whole_files(out) as folder:
+        text = json.dumps(session_report(result, cast), indent=1, allow_nan=False)
+        (folder / "results.json").write_text(text + "\n", encoding="utf-8")
+        write_figures(result, folder)
+    print(f"Results are in {out}.")
+
+
+if __name__ == "__main__":
+    run_program(main)

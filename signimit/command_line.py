@@ -1,0 +1,44 @@
+"""What all command-line programs share: arguments from a function's signature, and one sentence for bad input."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from signimit.exceptions import MissingDependencyError, SignimitError
+
+BAD_INPUT = 2
+_SCRIPT_PACKAGES = ("matplotlib", "tqdm", "tyro")
+
+
+def run_program(program: Callable[..., None]) -> None:
+    """Parse the command line into the arguments of a function, call it, and end the process.
+
+    Input that cannot be used ends it with code 2 and one sentence on the error stream, without a traceback.
+
+    Args:
+        program: Its signature gives the options, its docstring the help.
+    """
+    try:
+        import tyro
+
+        tyro.cli(program, description=inspect.getdoc(program))
+    except (SignimitError, OSError, ModuleNotFoundError) as error:
+        sys.stderr.write(f"{Path(sys.argv[0]).stem}: {_sentence(error)}\n")
+        sys.exit(BAD_INPUT)
+    except KeyboardInterrupt:
+        sys.stderr.write("\nstopped\n")
+        sys.exit(130)
+
+
+def _sentence(error: Exception) -> str:
+    """Say in one sentence what was wrong; a missing package that is not ours to name is a bug, not bad input."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."
+    if isinstance(error, ModuleNotFoundError) and not isinstance(error, SignimitError):
+        if error.name not in _SCRIPT_PACKAGES:
+            raise error
+        return str(MissingDependencyError(error.name, "scripts", "This program"))
+    return str(error)

@@ -1,0 +1,231 @@
+"""The paper's figures 4 to 7, and the memberships as they form.
+
+Needs matplotlib, which the extra ``scripts`` installs; nothing else in signimit imports this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import MissingDependencyError
+from signimit.summary import object_name
+
+try:
+    from matplotlib.figure import Figure
+except ImportError:
+    raise MissingDependencyError("matplotlib", "scripts", "Drawing figures") from None
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
+OBJECT_MARKERS = ("o", "s", "^", "D", "P", "h")  # the colour-blind tell the objects apart by their shapes
+PATH_COLOURS = ("#1b1b1b", "#7b3294", "#0571b0", "#b35806")  # repeated attempts; no colour of an object
+FRAME = "#e69f00"
+_HALF_VIEW = 0.30  # m, half of what a panel about an object shows
+Paths = Sequence[NDArray[np.float64]]
+
+
+def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, focus: ArrayLike) -> Figure:
+    """Draw all demonstrations seen from each object, the signs above (the paper's figure 4).
+
+    Args:
+        demonstrations: What was seen.
+        labels: Movement found in each demonstration, shape (N,); columns are sorted by it.
+        focus: Object found for each demonstration, shape (N,); its panel is framed.
+
+    Returns:
+        One column a demonstration, one row a sign and a row for each object.
+    """
+    movement, about = np.asarray(labels), np.asarray(focus)
+    order = np.lexsort((about, movement))
+    words, objects = len(demonstrations[0].signs), demonstrations.objects.shape[1]
+    figure, axes = _panels(words + objects, len(order), 1.15, heights=[0.8] * words + [1.15] * objects)
+    for column, t in enumerate(order):
+        demonstration = demonstrations[int(t)]
+        for word, sign in enumerate(demonstration.signs):
+            _draw_sign(axes[word, column], sign)
+        for i, place in enumerate(demonstration.objects):
+            panel = axes[words + i, column]
+            _draw_about(panel, [demonstration.hand - place], i, _HALF_VIEW)
+            if i == about[t]:
+                _frame(panel)
+        axes[0, column].set_title(f"{t}\nmovement {movement[t]}", fontsize=8)
+    for word in range(words):
+        axes[word, 0].set_ylabel(f"sign {word + 1}", fontsize=9)
+    for i in range(objects):
+        axes[words + i, 0].set_ylabel(f"seen from {object_name(i)}", fontsize=9, color=_colour(i))
+    figure.suptitle(
+        f"{len(order)} demonstrations, sorted by the movement found; the object found is framed. "
+        f"Panels are {2 * _HALF_VIEW:.1f} m wide, the hand starts at the dot.",
+        fontsize=10,
+    )
+    return figure
+
+
+def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> Figure:
+    """Draw the similarity of demonstrations in all pairs of frames (the paper's figure 5).
+
+    Args:
+        similarities: γ_{t;k;i;j}, shape (N, N, O, O), 1/rad².
+        labels: Movement of each demonstration, shape (N,); demonstrations are sorted by it.
+    """
+    order, cuts = _sorted_by(labels)
+    shown = similarities[np.ix_(order, order)].copy()
+    shown[np.arange(len(order)), np.arange(len(order))] = 0.0
+    objects = shown.shape[2]
+    figure, axes = _panels(objects, objects, 2.6)
+    top = float(shown.max())
+    for i in range(objects):
+        for j in range(objects):
+            image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, top)
+        axes[i, 0].set_ylabel(f"t seen from {object_name(i)}", color=_colour(i))
+        axes[0, i].set_title(f"k seen from {object_name(i)}", color=_colour(i), fontsize=10)
+    figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.6, label="similarity γ, 1/rad²")
+    figure.suptitle("Similarity of demonstrations t (rows) and k (columns) in each pair of frames", fontsize=11)
+    return figure
+
+
+def draw_maximum_similarity(similarity: NDArray[np.float64], labels: ArrayLike) -> Figure:
+    """Draw the largest similarity of each two demonstrations over all frames (the paper's figure 6).
+
+    Args:
+        similarity: γ_{t;k}, shape (N, N), 1/rad².
+        labels: Movement of each demonstration, shape (N,); demonstrations are sorted by it.
+    """
+    order, cuts = _sorted_by(labels)
+    figure, axes = _panels(1, 1, 4.6)
+    shown = similarity[np.ix_(order, order)]
+    image = _draw_matrix(axes[0, 0], shown, order, cuts, float(shown.max()))
+    axes[0, 0].set(xlabel="demonstration k", ylabel="demonstration t")
+    axes[0, 0].set_title("Maximum similarity; white lines part the movements found", fontsize=10)
+    figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.8, label="similarity γ, 1/rad²")
+    return figure
+
+
+def draw_reproductions(
+    paths: Mapping[tuple[int, int], Paths], movements: Sequence[str], unseen: frozenset[tuple[int, int]]
+) -> Figure:
+    """Draw what the hand did for each pair of signs, seen from the object asked for (the paper's figure 7).
+
+    Args:
+        paths: Hand paths in that object's frame, each (T, 2), m, by (movement, focus).
+        movements: Names of the movements.
+        unseen: The pairs that were never demonstrated; their panels are framed.
+    """
+    objects = 1 + max(focus for _, focus in paths)
+    figure, axes = _panels(len(movements), objects, 2.5)
+    for (movement, focus), attempts in paths.items():
+        panel = axes[movement, focus]
+        _draw_about(panel, attempts, focus, _HALF_VIEW + 0.05)
+        if (movement, focus) in unseen:
+            _frame(panel)
+            panel.text(0.03, 0.96, "never demonstrated", transform=panel.transAxes, va="top", fontsize=8)
+    for row, name in enumerate(movements):
+        axes[row, 0].set_ylabel(name, fontsize=11)
+    for focus in range(objects):
+        axes[0, focus].set_title(f"about {object_name(focus)}", color=_colour(focus), fontsize=11)
+    count = sum(map(len, paths.values()))
+    width = 2 * (_HALF_VIEW + 0.05)
+    figure.suptitle(f"{count} reproductions by the simulated arm. Panels are {width:.1f} m wide.", fontsize=11)
+    return figure
+
+
+def draw_memberships(history: NDArray[np.float64], labels: ArrayLike) -> Figure:
+    """Draw how each demonstration's memberships form over the steps of Algorithm 1.
+
+    Args:
+        history: M before the first step and after each, shape (S + 1, N, N).
+        labels: Movement of each demonstration, shape (N,).
+    """
+    order, _ = _sorted_by(labels)
+    movement = np.asarray(labels)
+    columns = 4
+    figure, axes = _panels(-(-len(order) // columns), columns, 2.2, heights=1.5)
+    winners = list(dict.fromkeys(history[-1].argmax(axis=0)[order].tolist()))
+    for panel, t in zip(axes.ravel(), order, strict=False):
+        for m in range(history.shape[1]):
+            if m not in winners:
+                panel.plot(history[:, m, t], color="#bbbbbb", linewidth=0.7)
+        for number, m in enumerate(winners):
+            style = ("-", "--", "-.", ":")[number % 4]
+            panel.plot(history[:, m, t], style, color=_distinct(number), label=f"group {m}")
+        panel.set(ylim=(-0.03, 1.03), xlim=(0, len(history) - 1), xticks=[0, 25, 50], yticks=[0, 1])
+        panel.set_title(f"demonstration {t} (movement {movement[t]})", fontsize=8)
+        panel.tick_params(labelsize=7)
+    for panel in axes.ravel()[len(order) :]:
+        panel.set_axis_off()
+    handles, names = axes[0, 0].get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside lower center", ncols=min(len(names), 6), fontsize=8, frameon=False)
+    figure.suptitle("Membership of each demonstration in each group, over the steps of Algorithm 1", fontsize=10)
+    return figure
+
+
+def _panels(
+    rows: int, columns: int, size: float, heights: float | list[float] | None = None
+) -> tuple[Figure, NDArray[np.object_]]:
+    """Make a figure of panels without ticks, ``size`` inches wide each."""
+    each = heights if isinstance(heights, list) else [heights or size] * rows
+    figure = Figure(figsize=(columns * size + 0.8, sum(each) + 0.9), layout="constrained")
+    axes = figure.subplots(rows, columns, squeeze=False, gridspec_kw={"height_ratios": each})
+    for panel in axes.ravel():
+        panel.set(xticks=[], yticks=[])
+    return figure, axes
+
+
+def _draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
+    centred = sign - (sign.max(axis=0) + sign.min(axis=0)) / 2
+    panel.plot(*(centred / np.abs(centred).max()).T, color="#1b1b1b", linewidth=1.3)
+    panel.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), aspect="equal")
+    for spine in panel.spines.values():
+        spine.set_visible(False)
+
+
+def _draw_about(panel: Axes, paths: Paths, focus: int, half_view: float) -> None:
+    """Draw paths, each (T, 2), m, about an object at the origin."""
+    for number, path in enumerate(paths):
+        colour = PATH_COLOURS[number % len(PATH_COLOURS)]
+        panel.plot(*path.T, color=colour, linewidth=0.9, alpha=0.85)
+        panel.plot(*path[0], ".", color=colour, markersize=6)
+    marker = OBJECT_MARKERS[focus % len(OBJECT_MARKERS)]
+    panel.plot(0, 0, marker, color=_colour(focus), markersize=9, markeredgecolor="white", zorder=3)
+    panel.set(xlim=(-half_view, half_view), ylim=(-half_view, half_view), aspect="equal")
+
+
+def _draw_matrix(
+    panel: Axes, matrix: NDArray[np.float64], order: NDArray[np.intp], cuts: NDArray[np.intp], top: float
+) -> object:
+    image = panel.imshow(matrix, cmap="viridis", vmin=0.0, vmax=top)
+    for cut in cuts:
+        panel.axhline(cut - 0.5, color="white", linewidth=1.0)
+        panel.axvline(cut - 0.5, color="white", linewidth=1.0)
+    numbers = [str(t) for t in order]
+    panel.set_xticks(range(len(order)), numbers, fontsize=6)
+    panel.set_yticks(range(len(order)), numbers, fontsize=6)
+    return image
+
+
+def _sorted_by(labels: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return demonstrations sorted by movement, and where in that order movements change."""
+    movement = np.asarray(labels)
+    order = np.argsort(movement, kind="stable")
+    return order, np.flatnonzero(np.diff(movement[order])) + 1
+
+
+def _frame(panel: Axes) -> None:
+    for spine in panel.spines.values():
+        spine.set(color=FRAME, linewidth=2.5)
+
+
+def _colour(focus: int) -> str:
+    return OBJECT_COLOURS[focus % len(OBJECT_COLOURS)]
+
+
+def _distinct(number: int) -> str:
+    """Return a colour of the Okabe-Ito palette."""
+    palette = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00")
+    return palette[number % len(palette)]

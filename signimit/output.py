@@ -1,0 +1,41 @@
+"""Folders of results that appear whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from signimit.exceptions import InvalidInputError
+
+
+@contextmanager
+def whole_files(folder: str | os.PathLike[str]) -> Iterator[Path]:
+    """Write files into a hidden folder beside ``folder``, and move them there once all are done.
+
+    Files of the same names are replaced, others stay.
+
+    Args:
+        folder: Where the files shall be; made if it is missing.
+
+    Yields:
+        The folder to write to.
+
+    Raises:
+        InvalidInputError: If ``folder`` is a file.
+    """
+    target = Path(folder)
+    if target.exists() and not target.is_dir():
+        raise InvalidInputError(str(target), "a folder, or nothing yet", "a file")
+    target.parent.mkdir(parents=True, exist_ok=True)
+    draft = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part"))
+    try:
+        yield draft
+        target.mkdir(exist_ok=True)
+        for file in sorted(draft.iterdir()):
+            os.replace(file, target / file.name)
+    finally:
+        shutil.rmtree(draft)
