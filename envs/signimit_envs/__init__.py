@@ -9,7 +9,6 @@ from signimit_envs.exceptions import RenderingError as RenderingError
 from signimit_envs.reproduction import HandTrack as HandTrack
 from signimit_envs.reproduction import reproduce as reproduce
 from signimit_envs.scene import CONTROL_RATE as CONTROL_RATE
-from signimit_envs.situations import Request as Request
 from signimit_envs.tabletop import TabletopEnv as TabletopEnv
 from signimit_envs.tabletop_hand import TabletopHandEnv as TabletopHandEnv
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,7 +15,7 @@ from signimit.evaluation import (
     prepare_templates,
     settled_part,
 )
-from signimit_envs.situations import Request
+from signimit.languages import Request
 
 WINDOW = 600  # samples of the past that count: 12 s
 _FIRST, _CLOSE, _FAR = 75, 10, 25  # control steps until the first look, and between looks when close to done and not
@@ -52,7 +54,7 @@ class Judge:
     five times a second when the hand is close to it and else twice, and tells everything once, when it is done.
     """
 
-    def __init__(self, templates: list[list[NDArray[np.float64]]]) -> None:
+    def __init__(self, templates: Sequence[Sequence[NDArray[np.float64]]]) -> None:
         """Take the drawings that show each movement, in the object's frame, m."""
         self._templates = templates
         self._prepared = prepare_templates(templates)

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, UnknownNameError
-from signimit.people import MOVEMENT_LABELS, Person
+from signimit.composition import movement_templates
+from signimit.languages import Language, Request
+from signimit.people import MOVEMENT_LABELS, Person, synthetic_library
 
 MOVEMENTS = ("triangle up", "triangle down", "circle")
 _DIGITS = "1234567890"
@@ -20,20 +22,16 @@ _DRAWINGS = 3  # of each movement; the judge takes the two that fit best
 class People:
     """An interactant who signs and a demonstrator whose movements count as right; both synthetic.
 
-    Their language is the paper's: the first word names the object, the second the movement, words are digits, the
-    first ones for objects and the next for movements.
-
     Attributes:
+        language: What they speak: as in the paper the first sign names the object and the second the movement; signs
+            are digits, the first ones for the objects and the next for the movements.
         interactant: Who makes the signs.
-        objects: Number of objects that there are words for.
-        movements: Labels of the movements.
         templates: For each movement the demonstrator's drawings, each (T, 2), m, in the object's frame.
     """
 
+    language: Language
     interactant: Person
-    objects: int
-    movements: tuple[str, ...]
-    templates: list[list[NDArray[np.float64]]]
+    templates: tuple[tuple[NDArray[np.float64], ...], ...]
 
     @classmethod
     def sample(cls, objects: int, movements: Sequence[str], rng: np.random.Generator) -> People:
@@ -41,18 +39,25 @@ class People:
 
         Raises:
             UnknownNameError: If somebody should make a movement that nobody knows.
-            InvalidInputError: If there are no movements, or more requests than words.
+            InvalidInputError: If there are no movements, or more objects and movements than digits.
         """
         for movement in movements:
             if movement not in MOVEMENT_LABELS:
                 raise UnknownNameError("movement", movement, MOVEMENT_LABELS)
-        if not 1 <= len(movements) <= len(_DIGITS) - objects:
-            raise InvalidInputError("movements", f"1 to {len(_DIGITS) - objects} labels", f"{len(movements)}")
-        interactant, demonstrator = Person.sample(rng), Person.sample(rng)
-        templates = [[demonstrator.draw(m, rng).points for _ in range(_DRAWINGS)] for m in movements]
-        return cls(interactant, objects, tuple(movements), templates)
+        words = len(_DIGITS) - objects
+        if not 1 <= len(movements) <= words:
+            raise InvalidInputError("movements", f"1 to {words} labels", f"{len(movements)}")
+        language = Language(
+            focus_signs=tuple(_DIGITS[:objects]),
+            movement_signs=tuple(_DIGITS[objects : objects + len(movements)]),
+            movements=tuple(movements),
+        )
+        drawings = synthetic_library(language.movements, samples=2 * _DRAWINGS, rng=rng)
+        templates = movement_templates(language, drawings, rng, _DRAWINGS)
+        return cls(language, Person.sample(rng), templates)
 
-    def speak(self, movement: int, focus: int, rng: np.random.Generator) -> list[NDArray[np.float64]]:
+    def speak(self, request: Request, rng: np.random.Generator) -> list[NDArray[np.float64]]:
         """Make the signs of a request: two strokes, each (T, 2), m, never the same twice."""
-        words = (_DIGITS[focus], _DIGITS[self.objects + movement])
+        language = self.language
+        words = (language.focus_signs[request.focus], language.movement_signs[request.movement])
         return [self.interactant.draw(word, rng).points for word in words]

@@ -42,8 +42,8 @@ def choose_backend() -> str:
     Raises:
         RenderingError: If none of them works.
     """
-    chosen = os.environ.get("MUJOCO_GL", "").lower().strip()
-    if chosen or sys.platform != "linux":
+    chosen: str = os.environ.get("MUJOCO_GL", "").lower().strip()
+    if chosen or not sys.platform.startswith("linux"):
         return chosen
     already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
     for backend in (*(("glfw",) if has_display() else ()), "egl", "osmesa"):

@@ -60,7 +60,9 @@ def reproduce(
     for _ in range(round(seconds * CONTROL_RATE)):
         if each_step is not None:
             each_step()
-        action = np.clip(move(path[-1]) / arm.max_hand_speed, -1.0, 1.0)
+        velocity = move(path[-1])
+        # A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
+        action = velocity / max(arm.max_hand_speed, float(np.abs(velocity).max()))
         observation, _, terminated, _, _ = arm.step(action)
         if terminated:
             break

@@ -11,14 +11,12 @@ import signimit_assets
 from signimit import InvalidInputError
 
 WORKSPACE = np.array([0.42, 0.38])  # m, half sizes of the area that the hand surely reaches
-OBJECT_AREA = np.array([0.22, 0.18])  # m, half sizes of the area where objects and hand are put at random
 TABLE = np.array([0.56, 0.50])  # m, half sizes of the table's top
-SEPARATION = 0.14  # m, least distance between objects put at random
 CONTROL_RATE = 50  # Hz
 SUBSTEPS = 20  # physics steps in a control step
 MAX_JOINT_SPEED = 3.5  # rad/s
 OBJECT_COUNTS = range(2, 7)
-for _array in (WORKSPACE, OBJECT_AREA, TABLE):
+for _array in (WORKSPACE, TABLE):
     _array.setflags(write=False)
 
 _EXTRA_OBJECTS = (  # name of the colour, rgba, geom type, size, height of its middle

@@ -9,25 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, UnknownNameError
+from signimit.languages import Request
+from signimit.scenes import sample_hand, sample_scene
 from signimit.signs import SAMPLES, normalised_sign
 from signimit.validation import finite_array
 from signimit_envs.people import People
-from signimit_envs.scene import OBJECT_AREA, SEPARATION, TABLE, WORKSPACE
+from signimit_envs.scene import TABLE, WORKSPACE
 
 OPTIONS = ("movement", "focus", "objects", "hand", "signs")
 WORDS = 2
-
-
-class Request(NamedTuple):
-    """What the signs ask for.
-
-    Attributes:
-        movement: Number of the movement.
-        focus: Number of the object.
-    """
-
-    movement: int
-    focus: int
 
 
 class Situation(NamedTuple):
@@ -66,7 +56,7 @@ def draw_situation(
         if name not in OPTIONS:
             raise UnknownNameError("reset option", name, OPTIONS)
     request = Request(
-        _number(given.get("movement"), "movement", len(people.movements), rng),
+        _number(given.get("movement"), "movement", len(people.language.movements), rng),
         _number(given.get("focus"), "focus", objects, rng),
     )
     places = _inside(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
@@ -74,9 +64,9 @@ def draw_situation(
     signs = _given_signs(given["signs"]) if "signs" in given else None
     return Situation(
         request,
-        _scattered(objects, rng) if places is None else places,
-        rng.uniform(-OBJECT_AREA, OBJECT_AREA) if hand is None else hand,
-        np.stack([normalised_sign(s) for s in people.speak(*request, rng)]) if signs is None else signs,
+        sample_scene(rng, objects) if places is None else places,
+        sample_hand(rng) if hand is None else hand,
+        np.stack([normalised_sign(s) for s in people.speak(request, rng)]) if signs is None else signs,
     )
 
 
@@ -114,12 +104,3 @@ def _given_signs(value: Any) -> NDArray[np.float64]:
         except InvalidInputError as error:
             raise error.inside(f"reset option signs: {number}") from None
     return out
-
-
-def _scattered(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Draw positions of objects that keep their distance from each other, shape (count, 2), m."""
-    while True:
-        places = rng.uniform(-OBJECT_AREA, OBJECT_AREA, (count, 2))
-        gaps = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
-        if (gaps[np.triu_indices(count, 1)] >= SEPARATION).all():
-            return places
