@@ -91,7 +91,7 @@ def joint_memberships(memberships: NDArray[np.float64]) -> NDArray[np.float64]:
     """Compute ω_{t;k} = max_m(m_{m;t} m_{m;k}) / Σ_τ max_m(m_{m;t} m_{m;τ}), shape (N, N)."""
     joint = np.zeros((memberships.shape[1],) * 2)
     for row in memberships:
-        np.maximum(joint, np.outer(row, row), out=joint)
+        np.maximum(joint, row[:, None] * row, out=joint)
     return np.asarray(joint / joint.sum(axis=1, keepdims=True))
 
 
@@ -122,33 +122,27 @@ def _rescaled(memberships: NDArray[np.float64]) -> NDArray[np.float64]:
 def push_multiplicative(old: NDArray[np.float64], xi: NDArray[np.float64]) -> NDArray[np.float64]:
     """Apply m_{m;t} <- m_{m;k} ξ m_{m;t} + (1 - m_{m;k}) m_{m;t} for all k other than t.
 
-    The update is a product of factors 1 + m_{m;k} (ξ_{t;k} - 1); it is summed as logarithms and each trajectory's
-    largest is taken out, which the rescaling that follows cancels, so that no product overflows.
+    The result is up to a factor for each trajectory, which the rescaling that follows cancels: the largest membership
+    is held at 1, so that no product overflows.
     """
     gain = xi - 1.0
     np.fill_diagonal(gain, 0.0)
-    exponents = np.stack([np.log1p(row[None, :] * gain).sum(axis=1) for row in old])
-    exponents += np.log(old)
-    return np.asarray(np.exp(exponents - exponents.max(axis=0)))
+    new = old.copy()
+    for k, pusher in enumerate(old.T):
+        new *= 1.0 + pusher[:, None] * gain[:, k]
+        new /= new.max(axis=0)
+    return new
 
 
 def push_as_printed(old: NDArray[np.float64], xi: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Apply m_{m;t} <- m_{m;k} ξ + (1 - m_{m;k}) m_{m;t} for k = 1 ... N other than t, as printed.
-
-    The update is affine in m_{m;t}, so the loop over k has a closed form:
-    m Π_k (1 - m_k) + Σ_k m_k ξ_k Π_{l > k} (1 - m_l), in both of which k and l pass over t.
-    """
-    keep = 1.0 - old  # (m, k)
-    out = np.empty_like(old)
-    for t in range(old.shape[1]):
-        kept = keep.copy()
-        kept[:, t] = 1.0
-        after = np.cumprod(kept[:, ::-1], axis=1)[:, ::-1]  # product over l >= k
-        later = np.column_stack([after[:, 1:], np.ones(len(old))])
-        pushed = old * xi[t][None, :] * later
-        pushed[:, t] = 0.0
-        out[:, t] = old[:, t] * after[:, 0] + pushed.sum(axis=1)
-    return out
+    """Apply m_{m;t} <- m_{m;k} ξ + (1 - m_{m;k}) m_{m;t} for all k other than t, as printed."""
+    new = old.copy()
+    for k, pusher in enumerate(old.T):
+        kept = new[:, k].copy()
+        new *= 1.0 - pusher[:, None]
+        new += pusher[:, None] * xi[:, k]
+        new[:, k] = kept
+    return new
 
 
 _PUSHES: dict[str, Push] = {"paper": push_multiplicative, "paper-literal": push_as_printed}

@@ -13,6 +13,7 @@ from signimit.strokes import Stroke
 from signimit.validation import finite_array, moving_points
 
 SAMPLES = 64
+_BLOCK = 2**19  # local costs worked on at once, 4 MB
 
 
 def dtw_distance(a: ArrayLike, b: ArrayLike) -> float:
@@ -35,7 +36,8 @@ def dtw_distance(a: ArrayLike, b: ArrayLike) -> float:
     for name, stroke in (("first stroke", first), ("second stroke", second)):
         if not len(stroke):
             raise InvalidInputError(name, "at least 1 point", "0")
-    return float(_warp(np.hypot(*(first[:, None] - second[None]).transpose(2, 0, 1))[None])[0])
+    gaps = (first[:, None] - second[None]).transpose(2, 0, 1)
+    return float(_warp(np.hypot(*gaps)[..., None])[0])
 
 
 def pairwise_dtw(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -49,27 +51,30 @@ def pairwise_dtw(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDA
         Distances, shape (A, B).
     """
     out = np.empty((len(first), len(second)))
-    for i, stroke in enumerate(first):
-        gaps = stroke[None, :, None, :] - second[:, None, :, :]
-        out[i] = _warp(np.hypot(gaps[..., 0], gaps[..., 1]))
+    rows = max(1, _BLOCK // max(1, first.shape[1] * second[..., 0].size))
+    x, y = second.transpose(2, 1, 0)[:, None, :, None]  # (1, T', 1, B); pairs come last, so that they are contiguous
+    for start in range(0, len(first), rows):
+        block = first[start : start + rows].transpose(2, 1, 0)[:, :, None, :, None]  # (2, T, 1, rows, 1)
+        cost = np.hypot(block[0] - x, block[1] - y)
+        out[start : start + rows] = _warp(cost.reshape(*cost.shape[:2], -1)).reshape(-1, len(second))
     return out
 
 
 def _warp(cost: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Accumulate local costs, shape (B, n, m), along anti-diagonals; return the totals, shape (B,)."""
-    count, n, m = cost.shape
-    # Cell (i, j) lies on diagonal i + j; a diagonal only needs the two before it, indexed here by i + 1.
-    previous, last = np.full((2, count, n + 1), np.inf)
+    """Accumulate local costs, shape (n, m, B), along anti-diagonals; return the totals, shape (B,)."""
+    n, m, count = cost.shape
+    cells = cost.reshape(n * m, count)  # cell (i, d - i) of diagonal d is row d + i (m - 1)
+    older, last, current = np.full((3, n + 2, count), np.inf)  # three diagonals; row i + 1 holds cell i
+    older[0] = 0.0
     for d in range(n + m - 1):
         low, high = max(0, d - m + 1), min(n, d + 1)
-        i = np.arange(low, high)
-        best = np.minimum(np.minimum(last[:, i], last[:, i + 1]), previous[:, i])
-        if d == 0:
-            best = np.zeros((count, 1))
-        current = np.full((count, n + 1), np.inf)
-        current[:, i + 1] = cost[:, i, d - i] + best
-        previous, last = last, current
-    return np.asarray(last[:, n])
+        total = current[low + 1 : high + 1]
+        np.minimum(last[low:high], last[low + 1 : high + 1], out=total)
+        np.minimum(total, older[low:high], out=total)
+        total += cells[d + low * (m - 1) : d + (high - 1) * (m - 1) + 1 : max(1, m - 1)]
+        current[low] = current[high + 1] = np.inf
+        older, last, current = last, current, older
+    return np.asarray(last[n])
 
 
 def normalised_sign(sign: ArrayLike, samples: int = SAMPLES) -> NDArray[np.float64]:

@@ -101,11 +101,13 @@ def _one_way_distances(directed: list[DirectedPoints], objects: NDArray[np.float
 
 
 def nearest_points(queries: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return for each query, shape (Q, 2), the index of the nearest point, shape (n, 2)."""
-    target = np.vstack([-2.0 * points.T, (points * points).sum(1)])
+    """Return for each query, shape (Q, 2), the index of the nearest of points, shape (n, 2)."""
+    centre = points.mean(axis=0)  # |p|² - 2 p·q cancels badly far from the origin
+    local = points - centre
+    target = np.vstack([-2.0 * local.T, (local * local).sum(1)])
     nearest = np.empty(len(queries), dtype=np.intp)
     rows = max(1, _BLOCK // len(points))
-    padded = np.column_stack([queries, np.ones(len(queries))])
+    padded = np.column_stack([queries - centre, np.ones(len(queries))])
     for start in range(0, len(queries), rows):
         nearest[start : start + rows] = (padded[start : start + rows] @ target).argmin(axis=1)
     return nearest

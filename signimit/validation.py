@@ -7,6 +7,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
 
+LARGEST = 1e100  # squares and ratios of what is smaller stay finite; no unit makes a stroke larger
+_STILL = 1e-9  # share of the largest coordinate below which a movement is rounding noise
+_LEAST_STEP = 1e-9  # s
+
 
 def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) -> NDArray[np.float64]:
     """Copy ``value`` into a read-only float array of the wanted shape.
@@ -20,24 +24,33 @@ def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) ->
         A C-ordered copy that cannot be written to.
 
     Raises:
-        InvalidInputError: If it is not numeric, has another shape or is not finite.
+        InvalidInputError: If it is not numeric, has another shape or is not finite, or beyond 1e100.
     """
     sizes = ", ".join("n" if s is None else str(s) for s in shape)
     wanted = f"numbers of shape ({sizes}{',' * (len(shape) == 1)})"
-    try:
-        array = np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError, OverflowError):
-        raise InvalidInputError(where, wanted, f"{type(value).__name__} that is not such an array") from None
+    array = _float_array(value, where, wanted)
     if array.ndim != len(shape) or any(
         want is not None and want != have for want, have in zip(shape, array.shape, strict=True)
     ):
         raise InvalidInputError(where, wanted, f"shape {array.shape}")
-    bad = np.argwhere(~np.isfinite(array))
+    bad = np.argwhere(~(np.abs(array) <= LARGEST))  # a comparison with NaN is false
     if len(bad):
         at = ", ".join(str(i) for i in bad[0])
-        raise InvalidInputError(where, "finite numbers", f"{array[tuple(bad[0])]} at index ({at})")
+        raise InvalidInputError(where, "finite numbers", f"{array[tuple(bad[0])]:g} at index ({at})")
     array.setflags(write=False)
     return array
+
+
+def _float_array(value: ArrayLike, where: str, wanted: str) -> NDArray[np.float64]:
+    """Copy integers, booleans or floats; text that looks like numbers and complex numbers are something else."""
+    try:
+        raw = np.asarray(value)
+        if raw.dtype.kind in "biuf" or not raw.size:
+            return np.array(raw, dtype=np.float64, order="C")
+        found = f"{raw.dtype} values"
+    except (TypeError, ValueError, OverflowError):
+        found = f"{type(value).__name__} that is not such an array"
+    raise InvalidInputError(where, wanted, found)
 
 
 def moving_points(value: ArrayLike, where: str) -> NDArray[np.float64]:
@@ -49,7 +62,7 @@ def moving_points(value: ArrayLike, where: str) -> NDArray[np.float64]:
     points = finite_array(value, where, (None, 2))
     if len(points) < 2:
         raise InvalidInputError(where, "at least 2 points", f"{len(points)}")
-    if not np.ptp(points, axis=0).any():
+    if np.ptp(points, axis=0).max() <= max(_STILL * np.abs(points).max(), 1 / LARGEST):
         raise InvalidInputError(where, "points that move", f"{len(points)} points in one place")
     return points
 
@@ -61,7 +74,7 @@ def increasing_times(value: ArrayLike, where: str, count: int) -> NDArray[np.flo
         InvalidInputError: If they are not.
     """
     times = finite_array(value, where, (count,))
-    still = np.flatnonzero(np.diff(times) <= 0)
+    still = np.flatnonzero(np.diff(times) < _LEAST_STEP)
     if len(still):
         i = int(still[0])
         raise InvalidInputError(
