@@ -158,7 +158,7 @@ def movement_templates(
     return tuple(tuple(drawing) for drawing in drawings)
 
 
-def draw_prototypes(language: Language, signs: Strokes, rng: np.random.Generator) -> tuple[Stroke, ...]:
+def compose_prototypes(language: Language, signs: Strokes, rng: np.random.Generator) -> tuple[Stroke, ...]:
     """Let the interactant draw the language's prototype signs once."""
     deck = as_deck(signs)
     return tuple(deck.deal(label, rng)[0] for label in language.prototypes)

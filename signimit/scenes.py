@@ -68,5 +68,4 @@ def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) ->
 
 def sample_times(count: int) -> NDArray[np.float64]:
     """Return when a hand path was sampled, every 20 ms from 0, shape (T,), s."""
-    times: NDArray[np.float64] = np.arange(count) * CONTROL_TIME
-    return times
+    return np.arange(count, dtype=np.float64) * CONTROL_TIME

@@ -17,7 +17,7 @@ from signimit.strokes import Stroke, StrokeLibrary
 SAMPLE_TIME = 0.01  # s
 SIGN_HALF_SIZE = 0.02  # m, a digit written
 MOVEMENT_HALF_SIZE = 0.1  # m, a movement about an object
-ISOCHRONY = 0.4  # duration of a stroke grows with this power of its length
+ISOCHRONY = 0.5  # duration of a stroke grows with this power of its length
 CORNER = np.radians(50.0)  # a junction that turns by more is drawn as a corner
 
 
@@ -62,7 +62,7 @@ class Style:
             aspect=float(np.exp(rng.normal(0.0, 0.12))),
             slant=rng.normal(0.08, 0.12),
             tilt=rng.normal(0.0, 0.05),
-            tempo=float(0.36 * np.exp(rng.normal(0.0, 0.15))),
+            tempo=float(0.30 * np.exp(rng.normal(0.0, 0.15))),
             fluency=rng.uniform(0.5, 0.62),
             roundness=rng.uniform(0.2, 0.5),
             bow=rng.normal(0.0, 0.12),
@@ -118,7 +118,7 @@ class Person:
     def _plan(self, glyph: Glyph, habit: NDArray[np.float64], size: float, rng: np.random.Generator) -> MotorPlan:
         """Aim at this sample's targets.
 
-        A stroke n times as long lasts n^0.4 times as long: the isochrony principle (P. Viviani and G. McCollum,
+        A stroke n times as long lasts n^0.5 times as long: the isochrony principle (P. Viviani and G. McCollum,
         Neuroscience 10, 1983, doi:10.1016/0306-4522(83)90094-5).
         """
         style = self.style

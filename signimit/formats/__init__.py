@@ -1,0 +1,9 @@
+"""Strokes of real people as the public offers them: UNIPEN text, $1 recogniser XML, W3C InkML."""
+
+from signimit.formats.dollar import read_dollar as read_dollar
+from signimit.formats.inkml import read_inkml as read_inkml
+from signimit.formats.inkml_writer import write_inkml as write_inkml
+from signimit.formats.reading import READERS as READERS
+from signimit.formats.reading import detect_format as detect_format
+from signimit.formats.reading import read_strokes as read_strokes
+from signimit.formats.unipen import read_unipen as read_unipen
