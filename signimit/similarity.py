@@ -12,7 +12,7 @@ from signimit.exceptions import InvalidInputError
 from signimit.validation import finite_array, moving_points
 
 DISTANCE_FLOOR = 1e-6  # rad²; keeps γ finite where two paths agree to the last bit
-_BLOCK = 2**17  # numbers of a distance block: small enough for the second-level cache
+_BLOCK = 2**16  # numbers of a distance block: small enough for the second-level cache
 
 
 class DirectedPoints(NamedTuple):
@@ -108,8 +108,11 @@ def nearest_points(queries: NDArray[np.float64], points: NDArray[np.float64]) ->
     nearest = np.empty(len(queries), dtype=np.intp)
     rows = max(1, _BLOCK // len(points))
     padded = np.column_stack([queries - centre, np.ones(len(queries))])
+    buffer = np.empty((rows, len(points)))
     for start in range(0, len(queries), rows):
-        nearest[start : start + rows] = (padded[start : start + rows] @ target).argmin(axis=1)
+        block = padded[start : start + rows]
+        values = np.matmul(block, target, out=buffer[: len(block)])
+        values.argmin(axis=1, out=nearest[start : start + rows])
     return nearest
 
 
