@@ -24,7 +24,8 @@ def run_program(program: Callable[..., None]) -> None:
     try:
         import tyro
 
-        tyro.cli(program, description=inspect.getdoc(program))
+        help_text = (inspect.getdoc(program) or "").partition("\nArgs:")[0]  # tyro puts these beside the options
+        tyro.cli(program, description=help_text.strip())
     except (SignimitError, OSError, ModuleNotFoundError) as error:
         sys.stderr.write(f"{Path(sys.argv[0]).stem}: {_sentence(error)}\n")
         sys.exit(BAD_INPUT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import platform
 from importlib import metadata
 from typing import Any
@@ -11,8 +12,8 @@ import numpy as np
 from signimit.languages import Request
 from signimit.summary import object_name
 from signimit_envs.casting import Cast
-from signimit_envs.session import Reproduction, SessionResult
-from signimit_envs.verdicts import Share, failing_stage, judge_inference, restart_grouping
+from signimit_envs.session import Reproduction, Session, SessionResult
+from signimit_envs.verdicts import Share, failing_stage, judge_inference, obeyed_shares, restart_grouping
 
 FORMAT = 1
 PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
@@ -33,22 +34,12 @@ def session_report(result: SessionResult, cast: Cast) -> dict[str, Any]:
             "grouping right": verdict.grouping,
             "focus right": verdict.focus,
             "word order right": verdict.word_order,
-            "demonstrations with the right focus": _share_entry(verdict.foci_right),
-            "grouping restarts right": _share_entry(restart_grouping(result)),
+            "demonstrations with the right focus": share_entry(verdict.foci_right),
+            "grouping restarts right": share_entry(restart_grouping(result)),
         },
-        "obeyed": {name: _share_entry(share) for name, share in obeyed_shares(result).items()},
+        "obeyed": {name: share_entry(share) for name, share in obeyed_shares(result).items()},
         "summary": result.model.summary(),
         "reproductions": rows,
-    }
-
-
-def obeyed_shares(result: SessionResult) -> dict[str, Share]:
-    """Count the commands that were obeyed: all, those about seen pairs and about unseen ones."""
-    reproductions = result.reproductions
-    return {
-        "all": Share.of(r.obeyed for r in reproductions),
-        "seen": Share.of(r.obeyed for r in reproductions if r.command.seen),
-        "unseen": Share.of(r.obeyed for r in reproductions if not r.command.seen),
     }
 
 
@@ -73,6 +64,17 @@ def inference_lines(result: SessionResult) -> str:
             f"Algorithm 1 from other initial memberships: right in {restart_grouping(result)}",
         ]
     )
+
+
+def truth_text(session: Session) -> str:
+    """Say the truth about demonstrations as JSON text: for each the movement and the object that were asked for."""
+    truth = session.truth
+    entries = [
+        {"movement": name, "object": object_name(int(focus))}
+        for name, focus in zip(truth.movement_names, truth.focus, strict=True)
+    ]
+    order = {"focus": truth.language.focus_word, "movement": truth.language.movement_word}
+    return json.dumps({"word order": order, "demonstrations": entries}, indent=1) + "\n"
 
 
 def installed_versions() -> dict[str, str]:
@@ -115,7 +117,8 @@ def _reproduction_entry(result: SessionResult, reproduction: Reproduction) -> di
     }
 
 
-def _share_entry(share: Share) -> dict[str, Any]:
+def share_entry(share: Share) -> dict[str, Any]:
+    """Say a share in what JSON can say."""
     low, high = share.interval
     return {"count": share.count, "total": share.total, "wilson 95 %": [low, high]}
 

@@ -14,13 +14,13 @@ from signimit.decks import StrokeDeck
 from signimit.demonstrations import DemonstrationSet
 from signimit.evaluation import Performance, performed
 from signimit.exceptions import InvalidInputError
-from signimit.frames import TablePolicy
 from signimit.languages import PAPER_LANGUAGE, Language, Request
 from signimit.learning import ImitationModel, learn
 from signimit.policies import DEFAULT_POLICY
 from signimit.scenes import sample_hand, sample_scene
 from signimit.strokes import Stroke
 from signimit_envs.casting import Cast
+from signimit_envs.reproduction import reproduce
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 
@@ -88,6 +88,7 @@ class Reproduction(NamedTuple):
         focus: Number of the object that it understood.
         confidence: Its probability that both are right.
         path: Where its hand was in every control step, shape (T, 2), m, table frame.
+        joints: The arm's joint angles at the same times, shape (T, 3), rad.
         performance: What that was.
     """
 
@@ -96,6 +97,7 @@ class Reproduction(NamedTuple):
     focus: int
     confidence: float
     path: NDArray[np.float64]
+    joints: NDArray[np.float64]
     performance: Performance
 
     @property
@@ -186,23 +188,16 @@ def run_session(plan: SessionPlan, cast: Cast, track: Track = iter) -> SessionRe
 def answer(command: Command, model: ImitationModel, session: Session, env: TabletopHandEnv) -> Reproduction:
     """Let the imitator answer one command, and judge what its hand did by what the demonstrator's had done."""
     response = model.respond(command.signs, command.objects)
-    path = move_hand(env, response.policy, command.objects, command.hand, session.plan.seconds)
+    joints: list[NDArray[np.float64]] = []
+    path, _ = reproduce(
+        env,
+        response.policy,
+        command.objects,
+        command.hand,
+        session.plan.seconds,
+        each_step=lambda: joints.append(env.data.qpos.copy()),
+    )
     performance = performed(path, command.objects, session.truth.templates)
-    return Reproduction(command, response.movement, response.focus, response.confidence, path, performance)
-
-
-def move_hand(
-    env: TabletopHandEnv, policy: TablePolicy, objects: NDArray[np.float64], hand: NDArray[np.float64], seconds: float
-) -> NDArray[np.float64]:
-    """TEMPORARY."""
-    obs, _ = env.reset(options={"objects": objects, "hand": hand})
-    path = [obs["hand"]]
-    state = policy.start() if hasattr(policy, "start") else None
-    for _ in range(int(seconds * 50)):
-        if hasattr(policy, "step"):
-            state, velocity = policy.step(state, path[-1])
-        else:
-            velocity = policy(path[-1])
-        obs, *_ = env.step(np.clip(velocity / env.max_hand_speed, -1, 1))
-        path.append(obs["hand"])
-    return np.array(path)
+    return Reproduction(
+        command, response.movement, response.focus, response.confidence, path, np.array(joints), performance
+    )

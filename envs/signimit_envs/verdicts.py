@@ -89,6 +89,16 @@ def same_partition(labels: ArrayLike, others: ArrayLike) -> bool:
     return len(set(zip(a, b, strict=True))) == len(set(a)) == len(set(b))
 
 
+def obeyed_shares(result: SessionResult) -> dict[str, Share]:
+    """Count the commands that were obeyed: all, those about seen pairs and about unseen ones."""
+    reproductions = result.reproductions
+    return {
+        "all": Share.of(r.obeyed for r in reproductions),
+        "seen": Share.of(r.obeyed for r in reproductions if r.command.seen),
+        "unseen": Share.of(r.obeyed for r in reproductions if not r.command.seen),
+    }
+
+
 def restart_grouping(result: SessionResult, method: str = "paper", restarts: int = RESTARTS) -> Share:
     """Run Algorithm 1 again and again on one similarity, from other initial memberships M_1.
 
