@@ -21,6 +21,7 @@ except ImportError:
     raise MissingDependencyError("matplotlib", "scripts", "Drawing figures") from None
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
 
 OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
 OBJECT_MARKERS = ("o", "s", "^", "D", "P", "h")  # the colour-blind tell the objects apart by their shapes
@@ -108,12 +109,16 @@ def draw_maximum_similarity(similarity: NDArray[np.float64], labels: ArrayLike) 
 
 
 def draw_reproductions(
-    paths: Mapping[tuple[int, int], Paths], movements: Sequence[str], unseen: frozenset[tuple[int, int]]
+    paths: Mapping[tuple[int, int], Paths],
+    obeyed: Mapping[tuple[int, int], Sequence[bool]],
+    movements: Sequence[str],
+    unseen: frozenset[tuple[int, int]],
 ) -> Figure:
     """Draw what the hand did for each pair of signs, seen from the object asked for (the paper's figure 7).
 
     Args:
         paths: Hand paths in that object's frame, each (T, 2), m, by (movement, focus).
+        obeyed: Whether each of these paths did what was asked for; those that did not are dashed.
         movements: Names of the movements.
         unseen: The pairs that were never demonstrated; their panels are framed.
     """
@@ -121,17 +126,23 @@ def draw_reproductions(
     figure, axes = _panels(len(movements), objects, 2.5)
     for (movement, focus), attempts in paths.items():
         panel = axes[movement, focus]
-        _draw_about(panel, attempts, focus, _HALF_VIEW + 0.05)
+        verdicts = obeyed[movement, focus]
+        _draw_about(panel, attempts, focus, _HALF_VIEW + 0.05, ["-" if right else ":" for right in verdicts])
+        note = f"{sum(verdicts)} of {len(verdicts)} obeyed"
         if (movement, focus) in unseen:
             _frame(panel)
-            panel.text(0.03, 0.96, "never demonstrated", transform=panel.transAxes, va="top", fontsize=8)
+            note = f"never demonstrated, {note}"
+        panel.text(0.03, 0.97, note, transform=panel.transAxes, va="top", fontsize=8)
     for row, name in enumerate(movements):
         axes[row, 0].set_ylabel(name, fontsize=11)
     for focus in range(objects):
         axes[0, focus].set_title(f"about {object_name(focus)}", color=_colour(focus), fontsize=11)
     count = sum(map(len, paths.values()))
     width = 2 * (_HALF_VIEW + 0.05)
-    figure.suptitle(f"{count} reproductions by the simulated arm. Panels are {width:.1f} m wide.", fontsize=11)
+    figure.suptitle(
+        f"{count} reproductions by the simulated arm, seen from the object asked for. Panels are {width:.1f} m wide.",
+        fontsize=11,
+    )
     return figure
 
 
@@ -185,11 +196,11 @@ def _draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
         spine.set_visible(False)
 
 
-def _draw_about(panel: Axes, paths: Paths, focus: int, half_view: float) -> None:
+def _draw_about(panel: Axes, paths: Paths, focus: int, half_view: float, styles: Sequence[str] = ("-",)) -> None:
     """Draw paths, each (T, 2), m, about an object at the origin."""
     for number, path in enumerate(paths):
         colour = PATH_COLOURS[number % len(PATH_COLOURS)]
-        panel.plot(*path.T, color=colour, linewidth=0.9, alpha=0.85)
+        panel.plot(*path.T, styles[number % len(styles)], color=colour, linewidth=0.9, alpha=0.85)
         panel.plot(*path[0], ".", color=colour, markersize=6)
     marker = OBJECT_MARKERS[focus % len(OBJECT_MARKERS)]
     panel.plot(0, 0, marker, color=_colour(focus), markersize=9, markeredgecolor="white", zorder=3)
@@ -198,7 +209,7 @@ def _draw_about(panel: Axes, paths: Paths, focus: int, half_view: float) -> None
 
 def _draw_matrix(
     panel: Axes, matrix: NDArray[np.float64], order: NDArray[np.intp], cuts: NDArray[np.intp], top: float
-) -> object:
+) -> AxesImage:
     image = panel.imshow(matrix, cmap="viridis", vmin=0.0, vmax=top)
     for cut in cuts:
         panel.axhline(cut - 0.5, color="white", linewidth=1.0)

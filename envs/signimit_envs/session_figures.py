@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 from signimit import figures
 from signimit.grouping import group_movements
 from signimit.similarity import maximum_similarities, policy_similarities
-from signimit_envs.session import SessionResult
+from signimit_envs.session import Reproduction, SessionResult
 from signimit_envs.verdicts import session_distances
 
 DOTS_PER_INCH = 130
@@ -25,11 +24,17 @@ def write_figures(result: SessionResult, folder: Path) -> None:
     history = model.diagnostics.get("history")
     if history is None:  # a method without Algorithm 1; show what the paper's would have done
         history = group_movements(similarity, rng=result.session.plan.seed).history
+    reproductions = by_request(result)
     drawn = {
         "figure4": figures.draw_demonstrations(result.session.demonstrations, model.labels, model.focus),
         "figure5": figures.draw_similarities(policy_similarities(distances), model.labels),
         "figure6": figures.draw_maximum_similarity(similarity, model.labels),
-        "figure7": figures.draw_reproductions(paths_about_objects(result), language.movements, language.held_back),
+        "figure7": figures.draw_reproductions(
+            {request: [path_about_object(r) for r in rs] for request, rs in reproductions.items()},
+            {request: [r.obeyed for r in rs] for request, rs in reproductions.items()},
+            language.movements,
+            language.held_back,
+        ),
         "memberships": figures.draw_memberships(history, model.labels),
     }
     for name, figure in drawn.items():
@@ -37,10 +42,15 @@ def write_figures(result: SessionResult, folder: Path) -> None:
         figure.savefig(folder / f"{name}.png", dpi=DOTS_PER_INCH, metadata={"Software": None})
 
 
-def paths_about_objects(result: SessionResult) -> dict[tuple[int, int], list[NDArray[np.float64]]]:
-    """Return the paths of the hand in the frame of the object asked for, each (T, 2), m, by request."""
-    paths = defaultdict(list)
-    for reproduction in result.reproductions:
-        command = reproduction.command
-        paths[tuple(command.request)].append(reproduction.path - command.objects[command.request.focus])
-    return dict(paths)
+def by_request(result: SessionResult) -> dict[tuple[int, int], list[Reproduction]]:
+    """Return the reproductions of each request, by (movement, focus)."""
+    return {
+        (request.movement, request.focus): [r for r in result.reproductions if r.command.request == request]
+        for request in result.session.plan.language.requests
+    }
+
+
+def path_about_object(reproduction: Reproduction) -> NDArray[np.float64]:
+    """Return the path of the hand in the frame of the object asked for, shape (T, 2), m."""
+    command = reproduction.command
+    return np.asarray(reproduction.path - command.objects[command.request.focus])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,8 @@ STAGES = ("grouping", "focus", "word order", "sign", "policy", "physics")
 _Z = 1.959963984540054  # standard normal quantile of 0.975
 
 
-class Share(NamedTuple):
+@dataclass(frozen=True)
+class Share:
     """So many of so many.
 
     Attributes:

@@ -1,0 +1,169 @@
+"""Sessions: what is composed, what the imitator does with it, and the verdicts."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from signimit.evaluation import NOTHING
+from signimit.exceptions import InvalidInputError
+from signimit.frames import TablePolicy
+from signimit.inference import WordOrder
+from signimit_envs.casting import Cast, cast_people
+from signimit_envs.report import inference_lines, session_report, session_table, truth_text
+from signimit_envs.session import SessionPlan, SessionResult, compose_session, run_session
+from signimit_envs.study import session_outcome, study_report, study_table
+from signimit_envs.verdicts import (
+    Share,
+    failing_stage,
+    ideal_path,
+    judge_inference,
+    obeyed_shares,
+    restart_grouping,
+    same_partition,
+)
+
+PLAN = SessionPlan(seed=2, attempts=1, seconds=6.0)
+
+
+@pytest.fixture(scope="module")
+def cast() -> Cast:
+    return cast_people(PLAN.language, np.random.default_rng(0))
+
+
+@pytest.fixture(scope="module")
+def result(cast: Cast) -> SessionResult:
+    return run_session(PLAN, cast)
+
+
+def test_every_pair_is_asked_for_and_three_of_nine_were_never_shown(result: SessionResult) -> None:
+    requests = [r.command.request for r in result.reproductions]
+    assert requests == list(PLAN.language.requests)
+    assert [r.command.seen for r in result.reproductions].count(False) == 3
+    shown = set(result.session.truth.requests)
+    assert all((r.command.request in shown) == r.command.seen for r in result.reproductions)
+
+
+def test_signs_of_commands_were_never_used_before(result: SessionResult) -> None:
+    used = {s.tobytes() for d in result.session.demonstrations for s in d.signs}
+    used |= {p.points.tobytes() for p in result.session.prototypes}
+    heard = [s.tobytes() for r in result.reproductions for s in r.command.signs]
+    assert not used & set(heard)
+    assert len(set(heard)) == len(heard)
+
+
+def test_the_simulated_hand_starts_where_it_is_put_and_goes_on_for_as_long_as_planned(result: SessionResult) -> None:
+    for reproduction in result.reproductions:
+        np.testing.assert_allclose(reproduction.path[0], reproduction.command.hand, atol=1e-3)
+        assert len(reproduction.path) == len(reproduction.joints) == PLAN.seconds * 50 + 1
+
+
+def test_a_session_obeys_most_commands_when_its_inferences_are_right(result: SessionResult) -> None:
+    assert judge_inference(result.model, result.session.truth).all_right
+    assert obeyed_shares(result)["all"].count >= 8
+
+
+def test_the_same_seed_gives_the_same_session(cast: Cast) -> None:
+    plan = replace(PLAN, seconds=1.0)
+    first, second = run_session(plan, cast), run_session(plan, cast)
+    for a, b in zip(first.reproductions, second.reproductions, strict=True):
+        assert a.path.tobytes() == b.path.tobytes()
+    assert session_report(first, cast) == session_report(second, cast)
+
+
+def test_the_seed_changes_the_session(cast: Cast) -> None:
+    hands = [compose_session(replace(PLAN, seed=s), cast).commands[0].hand for s in (0, 1)]
+    assert not np.array_equal(*hands)
+
+
+def test_progress_is_told_command_by_command(cast: Cast) -> None:
+    seen = []
+    run_session(replace(PLAN, seconds=1.0), cast, lambda commands: (seen.append(c.request) or c for c in commands))
+    assert seen == list(PLAN.language.requests)
+
+
+@pytest.mark.parametrize("wrong", [{"seed": -1}, {"attempts": 0}, {"seconds": 0.5}, {"seconds": float("nan")}])
+def test_a_plan_without_anything_to_see_is_refused(wrong: dict[str, float]) -> None:
+    with pytest.raises(InvalidInputError, match=next(iter(wrong))):
+        replace(PLAN, **wrong)
+
+
+def test_partitions_are_the_same_whatever_the_groups_are_called() -> None:
+    assert same_partition([0, 0, 1, 2], [5, 5, 0, 1])
+    assert not same_partition([0, 0, 1, 1], [0, 0, 0, 1])
+    assert not same_partition([0, 0, 0], [0, 0, 1])
+
+
+def test_wilson_intervals_match_numbers_worked_by_hand() -> None:
+    assert Share(36, 36).interval == pytest.approx((0.9036, 1.0), abs=1e-4)
+    assert Share(5, 10).interval == pytest.approx((0.2366, 0.7634), abs=1e-4)
+    assert Share(0, 0).interval == (0.0, 1.0)
+    assert str(Share(5, 10)) == "5 of 10 (95 % interval 0.24 to 0.76)"
+
+
+def test_the_first_restart_is_the_sessions_own_grouping(result: SessionResult) -> None:
+    assert restart_grouping(result, restarts=1) == Share(1, 1)
+    assert restart_grouping(result, restarts=5).total == 5
+
+
+def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult) -> None:
+    reproduction = result.reproductions[0]
+    model, failed = result.model, reproduction._replace(performance=NOTHING)
+    understood = model.understanding
+    labels, focus = np.zeros_like(model.labels), (model.focus + 1) % 3
+    order = WordOrder(model.word_order.movement, model.word_order.focus)
+
+    def stage(**changes: object) -> str:
+        other = replace(model, understanding=understood._replace(**changes))
+        return failing_stage(SessionResult(result.session, other, result.reproductions), failed)
+
+    assert failing_stage(result, reproduction) == ""
+    assert stage(labels=labels, focus=focus, word_order=order) == "grouping"
+    assert stage(focus=focus, word_order=order) == "focus"
+    assert stage(word_order=order) == "word order"
+    assert failing_stage(result, failed._replace(focus=(failed.focus + 1) % 3)) == "sign"
+    assert failing_stage(result, failed) == "physics"  # a point obeys, so that only the arm is left
+
+
+def test_an_ideal_hand_integrates_the_policy() -> None:
+    class East:
+        kind = "east"
+
+        def __call__(self, hand: object) -> np.ndarray:
+            return np.array([0.5, 0.0])
+
+    policy = TablePolicy(East(), np.zeros(2))  # type: ignore[arg-type]
+    path = ideal_path(policy, np.array([0.1, 0.2]), 2.0)
+    np.testing.assert_allclose(path[-1], [1.1, 0.2])
+
+
+def test_the_report_is_json_and_says_what_the_table_says(result: SessionResult, cast: Cast) -> None:
+    report = json.loads(json.dumps(session_report(result, cast), allow_nan=False))
+    assert report["plan"] == {"method": "paper", "policy": PLAN.policy, "seed": 2, "attempts": 1, "seconds": 6.0}
+    obeyed = sum(entry["obeyed"] for entry in report["reproductions"])
+    assert report["obeyed"]["all"]["count"] == obeyed
+    assert f"obeyed, all: {obeyed} of 9" in session_table(result)
+    assert {"python", "numpy", "mujoco", "mink", "platform"} <= set(report["versions"])
+    assert "grouping: right" in inference_lines(result)
+
+
+def test_the_truth_is_told_demonstration_by_demonstration(result: SessionResult) -> None:
+    truth = json.loads(truth_text(result.session))
+    assert truth["word order"] == {"focus": 0, "movement": 1}
+    names = [entry["movement"] for entry in truth["demonstrations"]]
+    assert names == list(result.session.truth.movement_names)
+
+
+def test_a_study_adds_sessions_up_and_names_what_failed(result: SessionResult) -> None:
+    outcome = session_outcome(result)
+    failed = outcome._replace(
+        seed=7, obeyed={k: Share(0, v.total) for k, v in outcome.obeyed.items()}, stages=("sign",) * 9
+    )
+    table = study_table([outcome, failed])
+    assert "not obeyed because of sign: 9, in sessions 7 (9)" in table
+    report = study_report([outcome, failed], "paper", "knn")
+    assert report["shares"]["obeyed"]["total"] == 18
+    assert [s["seed"] for s in report["sessions"]] == [2, 7]
