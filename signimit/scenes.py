@@ -13,7 +13,7 @@ LEAST_SEPARATION = 0.14  # m, between two objects
 REACH_SPEED = 0.35  # m/s, mean
 CONTROL_TIME = 0.02  # s, sampling of hand paths
 DRAWING_SPEED = (0.2, 0.4)  # m/s, mean; recordings made with a stylus on a small screen are brought into it
-ATTEMPTS = 20_000
+ATTEMPTS = 5_000
 
 
 def sample_scene(rng: np.random.Generator, objects: int = 3) -> NDArray[np.float64]:
