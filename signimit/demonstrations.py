@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.strokes import flatten, unflatten
-from signimit.validation import finite_array, increasing_times, moving_points
+from signimit.strokes import cut, flatten, unflatten
+from signimit.validation import finite_array, increasing_times, item_list, moving_points
 
 KIND, VERSION = "demonstration set", 1
 
@@ -44,11 +44,7 @@ class Demonstration:
         Raises:
             InvalidInputError: Names the field, what was expected and what was found.
         """
-        if isinstance(self.signs, (str, bytes)) or not isinstance(self.signs, Iterable):
-            raise InvalidInputError("signs", "one stroke for each word", type(self.signs).__name__)
-        signs = tuple(moving_points(s, f"sign {i}") for i, s in enumerate(self.signs))
-        if not signs:
-            raise InvalidInputError("signs", "at least one stroke", "none")
+        signs = tuple(moving_points(s, f"sign {i}") for i, s in enumerate(item_list(self.signs, "signs")))
         objects = finite_array(self.objects, "objects", (None, 2))
         if not len(objects):
             raise InvalidInputError("objects", "at least one position", "none")
@@ -75,12 +71,10 @@ class DemonstrationSet(Sequence[Demonstration]):
         Raises:
             InvalidInputError: If there are none, or one differs in words or objects from the first.
         """
-        object.__setattr__(self, "demonstrations", tuple(demonstrations))
+        object.__setattr__(self, "demonstrations", tuple(item_list(demonstrations, "demonstration set")))
         for i, demonstration in enumerate(self.demonstrations):
             if not isinstance(demonstration, Demonstration):
                 raise InvalidInputError(f"demonstration {i}", "a Demonstration", type(demonstration).__name__)
-        if not self.demonstrations:
-            raise InvalidInputError("demonstration set", "at least one demonstration", "none")
         first = self.demonstrations[0]
         for i, other in enumerate(self.demonstrations):
             for field in ("signs", "objects"):
@@ -160,7 +154,7 @@ class DemonstrationSet(Sequence[Demonstration]):
         try:
             objects = finite_array(arrays["objects"], "objects", (None, None, 2))
             hands = unflatten(arrays["hand"], arrays["times"], arrays["hand_offsets"])
-            strokes = unflatten(arrays["signs"], np.zeros(len(arrays["signs"])), arrays["sign_offsets"])
+            strokes = cut(arrays["signs"], "signs", arrays["sign_offsets"])
             count, words = len(hands), len(strokes) // max(1, len(hands))
             if len(objects) != count or words * count != len(strokes):
                 raise InvalidInputError(
@@ -170,15 +164,13 @@ class DemonstrationSet(Sequence[Demonstration]):
                 )
             made = []
             for i, (hand, times) in enumerate(hands):
-                signs = tuple(p for p, _ in strokes[i * words : (i + 1) * words])
+                signs = strokes[i * words : (i + 1) * words]
                 try:
-                    made.append(Demonstration(signs, objects[i], hand, times))
+                    made.append(Demonstration(tuple(signs), objects[i], hand, times))
                 except InvalidInputError as error:
                     raise error.inside(f"demonstration {i}") from None
             return cls(made)
         except KeyError as error:
             raise FileFormatError(where, f"an array {error}", "none") from None
-        except (InvalidInputError, TypeError) as error:
-            if not isinstance(error, InvalidInputError):
-                raise FileFormatError(where, "arrays of numbers", str(error)) from None
+        except InvalidInputError as error:
             raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None

@@ -8,10 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.exceptions import InvalidInputError
 from signimit.signs import resampled_path
 from signimit.similarity import nearest_points
-from signimit.validation import finite_array, moving_points
+from signimit.validation import finite_array, item_list, moving_points
 
 TOLERANCE = 0.35  # path error up to which a path counts as a movement, in half sizes of what was shown
 SETTLED = 2 / 3  # the last share of a path that is judged: by then the reach is over
@@ -97,13 +96,10 @@ def prepare_templates(templates: Sequence[Sequence[ArrayLike]]) -> list[list[Tem
     Raises:
         InvalidInputError: If there is no movement, or one has no drawing.
     """
-    if not len(templates):
-        raise InvalidInputError("templates", "at least one movement", "none")
-    prepared = [[make_template(loop) for loop in drawings] for drawings in templates]
-    for m, drawings in enumerate(prepared):
-        if not drawings:
-            raise InvalidInputError(f"templates of movement {m}", "at least one drawing", "none")
-    return prepared
+    return [
+        [make_template(loop) for loop in item_list(drawings, f"templates of movement {m}")]
+        for m, drawings in enumerate(item_list(templates, "templates"))
+    ]
 
 
 def settled_part(path: NDArray[np.float64]) -> NDArray[np.float64] | None:

@@ -10,7 +10,10 @@ from collections.abc import Iterable
 
 
 class SignimitError(Exception):
-    """Base of every error that signimit raises on purpose."""
+    """Base of every error that signimit raises on purpose.
+
+    Its facts are its ``args``, so that an error survives the way back from another process.
+    """
 
 
 class InvalidInputError(SignimitError, ValueError):
@@ -23,9 +26,13 @@ class InvalidInputError(SignimitError, ValueError):
     """
 
     def __init__(self, where: str, expected: str, found: str) -> None:
-        """Keep the three facts and make the sentence."""
+        """Keep the three facts."""
         self.where, self.expected, self.found = where, expected, found
-        super().__init__(f"{where}: expected {expected}, found {found}.")
+        super().__init__(where, expected, found)
+
+    def __str__(self) -> str:
+        """Return the sentence."""
+        return f"{self.where}: expected {self.expected}, found {self.found}."
 
     def inside(self, place: str) -> InvalidInputError:
         """Return the same complaint, told from one level further out."""
@@ -46,9 +53,13 @@ class UnknownNameError(SignimitError, ValueError):
     """
 
     def __init__(self, what: str, name: object, known: Iterable[str]) -> None:
-        """Keep the facts and list the alternatives."""
+        """Keep the facts."""
         self.what, self.name, self.known = what, name, tuple(known)
-        super().__init__(f"Unknown {what} {name!r}; known are {', '.join(self.known)}.")
+        super().__init__(what, name, self.known)
+
+    def __str__(self) -> str:
+        """Return the sentence, with the alternatives."""
+        return f"Unknown {self.what} {self.name!r}; known are {', '.join(self.known)}."
 
 
 class MissingDependencyError(SignimitError, ImportError):
@@ -57,9 +68,14 @@ class MissingDependencyError(SignimitError, ImportError):
     Attributes:
         package: The package that is missing.
         extra: The extra of signimit that installs it.
+        purpose: What needs it.
     """
 
     def __init__(self, package: str, extra: str, purpose: str) -> None:
-        """Keep the facts and say what to type."""
-        self.package, self.extra = package, extra
-        super().__init__(f"{purpose} needs {package}: pip install 'signimit[{extra}]'.")
+        """Keep the facts."""
+        self.package, self.extra, self.purpose = package, extra, purpose
+        super().__init__(package, extra, purpose)
+
+    def __str__(self) -> str:
+        """Return the sentence, with what to type."""
+        return f"{self.purpose} needs {self.package}: pip install 'signimit[{self.extra}]'."

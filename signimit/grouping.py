@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError, UnknownNameError
-from signimit.validation import finite_array
+from signimit.validation import finite_array, make_generator
 
 STEPS = 50
 _RESCUE = 1e-4  # what every membership gets back after each step, as printed
@@ -61,9 +61,9 @@ def group_movements(
     if method not in _PUSHES:
         raise UnknownNameError("grouping method", method, _PUSHES)
     gamma = _checked_similarity(similarity)
-    if steps < 0:
-        raise InvalidInputError("steps", "zero or more", f"{steps}")
-    memberships = np.random.default_rng(rng).random(gamma.shape)
+    if not isinstance(steps, (int, np.integer)) or steps < 0:
+        raise InvalidInputError("steps", "a whole number, 0 or more", f"{steps!r:.40}")
+    memberships = make_generator(rng).random(gamma.shape)
     memberships /= memberships.sum(axis=0)
     history = [memberships]
     for _ in range(steps):
@@ -76,8 +76,12 @@ def _checked_similarity(similarity: ArrayLike) -> NDArray[np.float64]:
     if gamma.shape[0] != gamma.shape[1] or not len(gamma):
         raise InvalidInputError("similarity", "a square matrix", f"shape {gamma.shape}")
     np.fill_diagonal(gamma, 0.0)
-    if (gamma < 0).any() or not np.allclose(gamma, gamma.T):
-        raise InvalidInputError("similarity", "a symmetric matrix without negative numbers", "another")
+    if (gamma < 0).any():
+        raise InvalidInputError("similarity", "no negative numbers", f"{gamma.min():g}")
+    if not np.allclose(gamma, gamma.T):
+        t, k = np.unravel_index(np.abs(gamma - gamma.T).argmax(), gamma.shape)
+        found = f"{gamma[t, k]:g} at [{t}, {k}] and {gamma[k, t]:g} at [{k}, {t}]"
+        raise InvalidInputError("similarity", "a symmetric matrix", found)
     return gamma
 
 

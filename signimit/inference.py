@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError, UnknownNameError
-from signimit.similarity import policy_similarities
-from signimit.validation import finite_array
+from signimit.similarity import check_distances, policy_similarities
+from signimit.validation import finite_array, whole_numbers
 
 
 class WordOrder(NamedTuple):
@@ -41,8 +41,8 @@ def infer_focus(distances: ArrayLike, labels: ArrayLike) -> NDArray[np.int64]:
     Raises:
         InvalidInputError: If the shapes do not fit.
     """
-    table = finite_array(distances, "distances", (None, None, None, None))
-    groups = _checked_labels(labels, len(table))
+    table = check_distances(distances)
+    groups = whole_numbers(labels, "labels", (len(table),))
     return np.asarray(focus_similarities(table, groups).argmax(axis=1), dtype=np.int64)
 
 
@@ -53,10 +53,6 @@ def focus_similarities(distances: NDArray[np.float64], labels: NDArray[np.int64]
     alone = ~same.any(axis=1)
     same[alone] = ~np.eye(len(labels), dtype=bool)[alone]
     return np.asarray(np.einsum("tki,tk->ti", best, same) / np.maximum(same.sum(axis=1), 1)[:, None])
-
-
-def _checked_labels(labels: ArrayLike, count: int) -> NDArray[np.int64]:
-    return finite_array(labels, "labels", (count,)).astype(np.int64)
 
 
 def infer_word_order(sign_points: ArrayLike, labels: ArrayLike, focus: ArrayLike, method: str = "ratio") -> WordOrder:
@@ -82,14 +78,15 @@ def infer_word_order(sign_points: ArrayLike, labels: ArrayLike, focus: ArrayLike
         UnknownNameError: If there is no such method.
     """
     points = finite_array(sign_points, "sign points", (None, None, None))
-    by_movement = _checked_labels(labels, len(points))
-    by_focus = finite_array(focus, "focus", (len(points),)).astype(np.int64)
+    by_movement = whole_numbers(labels, "labels", (len(points),))
+    by_focus = whole_numbers(focus, "focus", (len(points),))
+    if not points.size:
+        raise InvalidInputError("sign points", "at least one number", f"shape {points.shape}")
     gaps = np.linalg.norm(points[:, None] - points[None], axis=-1)  # (N, N, W)
-    if not gaps.shape[2]:
-        raise InvalidInputError("sign points", "at least one word", "none")
     if method == "paper":
         spread = spread_within(gaps, by_movement)
-        return WordOrder(int(spread.argmax()), int(spread.argmin()))
+        by_size = np.argsort(-spread, kind="stable")  # a tie is two words all the same, not one word twice
+        return WordOrder(int(by_size[0]), int(by_size[-1]))
     if method == "ratio":
         return _order_by_ratio(gaps, by_movement, by_focus)
     raise UnknownNameError("word order method", method, ("ratio", "paper"))

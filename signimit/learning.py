@@ -18,10 +18,11 @@ from signimit.frames import TablePolicy, on_table
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, make_policy
-from signimit.strokes import Stroke, flatten, unflatten
+from signimit.signs import prototype_points
+from signimit.strokes import Stroke, cut, flatten
 from signimit.summary import summarise
 from signimit.understanding import SignReader, Understanding
-from signimit.validation import finite_array, moving_points
+from signimit.validation import finite_array, item_list, make_generator, moving_points, whole_numbers
 
 KIND, VERSION = "imitation model", 1
 
@@ -125,10 +126,11 @@ class ImitationModel:
             InvalidInputError: If there are not as many signs or objects as in the demonstrations.
         """
         words, count = len(self.demonstrations[0].signs), self.demonstrations.objects.shape[1]
-        if len(signs) != words:
-            raise InvalidInputError("signs", f"{words} as in the demonstrations", f"{len(signs)}")
+        utterance = [moving_points(s, f"sign {i}") for i, s in enumerate(item_list(signs, "signs"))]
+        if len(utterance) != words:
+            raise InvalidInputError("signs", f"{words} as in the demonstrations", f"{len(utterance)}")
         places = finite_array(objects, "objects", (count, 2))
-        reading = self._reader.read([moving_points(s, f"sign {i}") for i, s in enumerate(signs)])
+        reading = self._reader.read(utterance)
         movement, focus = int(reading.movement.argmax()), int(reading.focus.argmax())
         confidence = float(reading.movement[movement] * reading.focus[focus])
         return Response(movement, focus, on_table(self.policy(movement), places[focus]), confidence)
@@ -139,7 +141,7 @@ class ImitationModel:
         Raises:
             UnknownNameError: If there is no such movement.
         """
-        if not 0 <= movement < len(self.movements):
+        if movement not in range(len(self.movements)):
             raise UnknownNameError("movement", movement, [str(m) for m in range(len(self.movements))])
         if movement not in self._policies:
             _, paths, times = self.movements[movement]
@@ -177,16 +179,16 @@ class ImitationModel:
             understanding = _checked_understanding(arrays, demos)
             prototypes = None
             if "prototypes" in arrays:
-                flat = arrays["prototypes"]
-                pieces = unflatten(flat, np.zeros(len(flat)), arrays["prototype_offsets"])
-                prototypes = tuple(moving_points(p, f"prototype {i}") for i, (p, _) in enumerate(pieces))
+                prototypes = prototype_points(cut(arrays["prototypes"], "prototypes", arrays["prototype_offsets"]))
+            model = cls(demos, understanding, method, kind, prototypes)
+            _ = model._reader  # what a reader lacks is a fault of the file, to be told now
         except KeyError as error:
             raise FileFormatError(where, f"an entry {error}", "none") from None
         except InvalidInputError as error:
             raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
         except UnknownNameError as error:
             raise FileFormatError(where, f"a known {error.what}", repr(error.name)) from None
-        return cls(demos, understanding, method, kind, prototypes)
+        return model
 
 
 def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
@@ -196,16 +198,25 @@ def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any
 def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet) -> Understanding:
     count, frames, words = len(demos), demos.objects.shape[1], len(demos[0].signs)
     labels = _indices(arrays["labels"], "labels", (count,), count)
+    if len(np.unique(labels)) != labels.max() + 1:
+        raise InvalidInputError("labels", "movements numbered without gaps", f"{labels[:8].tolist()}")
     focus = _indices(arrays["focus"], "focus", (count,), frames)
     order = _indices(arrays["word_order"], "word order", (2,), words)
-    return Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), _part(arrays, "diagnostics__"))
+    diagnostics = _part(arrays, "diagnostics__")
+    return _frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), diagnostics))
+
+
+def _frozen(understanding: Understanding) -> Understanding:
+    """Make the arrays read-only."""
+    for array in (understanding.labels, understanding.focus, *understanding.diagnostics.values()):
+        array.setflags(write=False)
+    return understanding
 
 
 def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:
-    array = finite_array(value, where, shape).astype(np.int64)
+    array = whole_numbers(value, where, shape)
     if (array < 0).any() or (array >= count).any():
-        raise InvalidInputError(where, f"whole numbers from 0 to {count - 1}", f"{array.tolist()}")
-    array.setflags(write=False)
+        raise InvalidInputError(where, f"whole numbers from 0 to {count - 1}", f"{array[:8].tolist()}")
     return array
 
 
@@ -241,14 +252,6 @@ def learn(
         raise InvalidInputError("demonstrations", "a DemonstrationSet", type(demonstrations).__name__)
     learner = get_learner(method)
     _check_policy(policy)
-    strokes = None if prototypes is None else _prototype_points(prototypes)
-    understanding = learner.infer(demonstrations, strokes, np.random.default_rng(rng))
-    for array in (understanding.labels, understanding.focus, *understanding.diagnostics.values()):
-        array.setflags(write=False)
-    return ImitationModel(demonstrations, understanding, method, policy, strokes)
-
-
-def _prototype_points(prototypes: Sequence[Stroke | ArrayLike]) -> tuple[NDArray[np.float64], ...]:
-    return tuple(
-        moving_points(p.points if isinstance(p, Stroke) else p, f"prototype {i}") for i, p in enumerate(prototypes)
-    )
+    strokes = None if prototypes is None else prototype_points(prototypes)
+    understanding = learner.infer(demonstrations, strokes, make_generator(rng))
+    return ImitationModel(demonstrations, _frozen(understanding), method, policy, strokes)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke
-from signimit.validation import finite_array, moving_points
+from signimit.validation import finite_array, item_list, moving_points
 
 SAMPLES = 64
 _BLOCK = 2**19  # local costs worked on at once, 4 MB
@@ -90,7 +90,10 @@ def normalised_sign(sign: ArrayLike, samples: int = SAMPLES) -> NDArray[np.float
     Raises:
         InvalidInputError: If the sign has fewer than two points, does not move or is not finite.
     """
-    points = moving_points(sign, "sign")
+    return _normalised(moving_points(sign, "sign"), samples)
+
+
+def _normalised(points: NDArray[np.float64], samples: int = SAMPLES) -> NDArray[np.float64]:
     resampled = resampled_path(points / np.abs(points).max(), samples)
     centred = resampled - (resampled.max(0) + resampled.min(0)) / 2
     return np.asarray(centred / np.abs(centred).max())
@@ -101,6 +104,18 @@ def resampled_path(points: NDArray[np.float64], samples: int) -> NDArray[np.floa
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     wanted = np.linspace(0.0, length[-1], samples)
     return np.column_stack([np.interp(wanted, length, points[:, axis]) for axis in (0, 1)])
+
+
+def prototype_points(prototypes: Sequence[Stroke | ArrayLike]) -> tuple[NDArray[np.float64], ...]:
+    """Copy prototype strokes as points, each of shape (T, 2).
+
+    Raises:
+        InvalidInputError: If there are none, or one is not a stroke.
+    """
+    return tuple(
+        moving_points(p.points if isinstance(p, Stroke) else p, f"prototype {i}")
+        for i, p in enumerate(item_list(prototypes, "prototypes"))
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,13 +134,7 @@ class SignSpace:
         Raises:
             InvalidInputError: If there are none, or one is not a stroke.
         """
-        strokes = []
-        for i, prototype in enumerate(prototypes):
-            points = prototype.points if isinstance(prototype, Stroke) else prototype
-            strokes.append(normalised_sign(moving_points(points, f"prototype {i}")))
-        if not strokes:
-            raise InvalidInputError("prototypes", "at least one stroke", "none")
-        stacked = np.stack(strokes)
+        stacked = np.stack([_normalised(points) for points in prototype_points(prototypes)])
         stacked.setflags(write=False)
         object.__setattr__(self, "prototypes", stacked)
 
@@ -146,5 +155,6 @@ class SignSpace:
         Departure: the paper says only "similarity (after dynamic time warping)". Here both strokes are resampled to
         64 points and brought to a common size, and the similarity is 1 / (1 + DTW distance / 64).
         """
-        strokes = np.stack([normalised_sign(s) for s in signs])
+        points = [moving_points(s, f"sign {i}") for i, s in enumerate(item_list(signs, "signs"))]
+        strokes = np.stack([_normalised(p) for p in points])
         return np.asarray(1.0 / (1.0 + pairwise_dtw(strokes, self.prototypes) / SAMPLES))

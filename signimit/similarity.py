@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.validation import finite_array, moving_points
+from signimit.validation import finite_array, item_list, moving_points
 
 DISTANCE_FLOOR = 1e-6  # rad²; keeps γ finite where two paths agree to the last bit
 _BLOCK = 2**16  # numbers of a distance block: small enough for the second-level cache
@@ -65,8 +65,10 @@ def policy_distances(paths: Sequence[ArrayLike], objects: ArrayLike) -> NDArray[
     Raises:
         InvalidInputError: If a path does not move, or objects do not fit the paths.
     """
-    places = finite_array(objects, "objects", (len(paths), None, 2))
-    directed = [_directed(path, t) for t, path in enumerate(paths)]
+    directed = [_directed(path, t) for t, path in enumerate(item_list(paths, "paths"))]
+    places = finite_array(objects, "objects", (len(directed), None, 2))
+    if not places.size:
+        raise InvalidInputError("objects", "at least one in each demonstration", "none")
     one_way = _one_way_distances(directed, places)
     return np.minimum(one_way, one_way.transpose(1, 0, 3, 2))
 
@@ -116,18 +118,37 @@ def nearest_points(queries: NDArray[np.float64], points: NDArray[np.float64]) ->
     return nearest
 
 
-def policy_similarities(distances: NDArray[np.float64]) -> NDArray[np.float64]:
+def check_distances(distances: ArrayLike) -> NDArray[np.float64]:
+    """Copy Δ, shape (N, N, O, O), N and O at least 1.
+
+    Raises:
+        InvalidInputError: If it has another shape or is not finite.
+    """
+    table = finite_array(distances, "distances", (None, None, None, None))
+    demonstrations, again, frames, too = table.shape
+    if demonstrations != again or frames != too or not table.size:
+        raise InvalidInputError("distances", "shape (N, N, O, O)", f"shape {table.shape}")
+    return table
+
+
+def policy_similarities(distances: ArrayLike) -> NDArray[np.float64]:
     """Compute γ_{t;k;i;j} = 1 / Δ_{t;k;i;j}, shape (N, N, O, O), 1/rad².
 
     Departure: Δ is clamped at 1e-6 rad² so that γ stays finite where two demonstrations are the same.
+
+    Raises:
+        InvalidInputError: If Δ has another shape or is not finite.
     """
-    return 1.0 / np.maximum(distances, DISTANCE_FLOOR)
+    return 1.0 / np.maximum(check_distances(distances), DISTANCE_FLOOR)
 
 
-def maximum_similarities(distances: NDArray[np.float64]) -> NDArray[np.float64]:
+def maximum_similarities(distances: ArrayLike) -> NDArray[np.float64]:
     """Compute γ_{t;k} = max_{i,j} γ_{t;k;i;j}, shape (N, N), 1/rad².
 
     Departure: the paper leaves γ_{t;t} undefined; it is 0, as in its figures 5 and 6.
+
+    Raises:
+        InvalidInputError: If Δ has another shape or is not finite.
     """
     best = policy_similarities(distances).max(axis=(2, 3))
     np.fill_diagonal(best, 0.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Self, overload
 
 import numpy as np
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
-from signimit.validation import increasing_times, moving_points
+from signimit.validation import finite_array, increasing_times, moving_points
 
 KIND, VERSION = "stroke library", 1
 
@@ -60,9 +61,17 @@ class StrokeLibrary(Sequence[Stroke]):
     source: str = ""
 
     def __post_init__(self) -> None:
-        """Check that there is one label and one writer for each stroke."""
-        for name in ("strokes", "labels", "writers"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        """Check that there is one label and one writer, both text, for each stroke.
+
+        Raises:
+            InvalidInputError: If there is not.
+        """
+        for name, kind in (("strokes", Stroke), ("labels", str), ("writers", str)):
+            items = tuple(getattr(self, name))
+            for i, item in enumerate(items):
+                if not isinstance(item, kind):
+                    raise InvalidInputError(f"stroke library: {name}", f"{kind.__name__}s", f"{item!r:.40} at {i}")
+            object.__setattr__(self, name, items)
         if not len(self.strokes) == len(self.labels) == len(self.writers):
             raise InvalidInputError(
                 "stroke library",
@@ -142,7 +151,7 @@ class StrokeLibrary(Sequence[Stroke]):
         where = os.fspath(path)
         try:
             parts = unflatten(arrays["points"], arrays["times"], arrays["offsets"])
-            labels, writers = arrays["labels"].tolist(), arrays["writers"].tolist()
+            labels, writers = (np.atleast_1d(arrays[name]).tolist() for name in ("labels", "writers"))
             strokes = []
             for i, (p, t) in enumerate(parts):
                 try:
@@ -169,20 +178,25 @@ def flatten(
 def unflatten(
     points: ArrayLike, times: ArrayLike, offsets: ArrayLike
 ) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Cut flat arrays at their offsets.
+    """Undo `flatten`.
 
     Raises:
         InvalidInputError: If the offsets do not cut these arrays.
     """
-    p, t, o = np.asarray(points), np.asarray(times), np.asarray(offsets)
-    sane = (
-        o.ndim == 1
-        and o.dtype.kind in "iu"
-        and len(o) > 0
-        and o[0] == 0
-        and bool((np.diff(o.astype(np.int64)) >= 0).all())
-    )
-    if not sane or p.ndim == 0 or t.ndim == 0 or o[-1] != len(p) or o[-1] != len(t):
-        raise InvalidInputError("offsets", f"a rising cut of {len(p) if p.ndim else 0} points", f"{o.tolist()[:8]}")
-    cuts = o[1:-1]
-    return list(zip(np.split(p, cuts), np.split(t, cuts), strict=True)) if len(o) > 1 else []
+    return list(zip(cut(points, "points", offsets), cut(times, "times", offsets), strict=True))
+
+
+def cut(flat: ArrayLike, where: str, offsets: ArrayLike) -> list[NDArray[np.float64]]:
+    """Cut points, shape (T, 2), or times, shape (T,), apart at their offsets.
+
+    Raises:
+        InvalidInputError: If they are not numbers, or the offsets do not cut them.
+    """
+    array = finite_array(flat, where, (None,) if np.ndim(flat) == 1 else (None, 2))
+    at = np.asarray(offsets)
+    sane = at.ndim == 1 and at.dtype.kind in "iu" and len(at) > 0
+    at = at.astype(np.int64) if sane else at
+    if not sane or at[0] != 0 or at[-1] != len(array) or (np.diff(at) < 0).any():
+        found = f"{at.ravel()[:8].tolist()}"
+        raise InvalidInputError(f"offsets of {where}", f"whole numbers rising from 0 to {len(array)}", found)
+    return [array[a:b] for a, b in pairwise(at)]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -81,3 +84,46 @@ def increasing_times(value: ArrayLike, where: str, count: int) -> NDArray[np.flo
             where, "strictly increasing seconds", f"{times[i]:g} then {times[i + 1]:g} at index {i}"
         )
     return times
+
+
+def item_list(values: Iterable[Any], where: str) -> list[Any]:
+    """Return the items of what should be a list, at least one.
+
+    Raises:
+        InvalidInputError: If it is text, a mapping, cannot be gone through, or is empty.
+    """
+    try:
+        items = None if isinstance(values, (str, bytes, Mapping)) else list(values)
+    except TypeError:
+        items = None
+    if items is None:
+        raise InvalidInputError(where, "a list", type(values).__name__)
+    if not items:
+        raise InvalidInputError(where, "at least one", "none")
+    return items
+
+
+def whole_numbers(value: ArrayLike, where: str, shape: tuple[int | None, ...]) -> NDArray[np.int64]:
+    """Copy indices or labels into a read-only integer array of the wanted shape.
+
+    Raises:
+        InvalidInputError: If they are not such numbers.
+    """
+    numbers = finite_array(value, where, shape)
+    whole = numbers.astype(np.int64) if (np.abs(numbers) < 2**53).all() else np.zeros(numbers.shape, np.int64)
+    if (whole != numbers).any():
+        raise InvalidInputError(where, "whole numbers", f"{numbers.ravel()[:8].tolist()}")
+    whole.setflags(write=False)
+    return whole
+
+
+def make_generator(rng: np.random.Generator | int | None) -> np.random.Generator:
+    """Return a generator from a generator or a seed.
+
+    Raises:
+        InvalidInputError: If it is neither.
+    """
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError):
+        raise InvalidInputError("rng", "a numpy Generator or a seed, 0 or more", f"{rng!r:.40}") from None

@@ -15,6 +15,7 @@ from signimit.inference import infer_focus, infer_word_order
 from signimit.signs import SignSpace
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit.understanding import Reading, Understanding
+from signimit.validation import finite_array
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ class PaperLearner:
     ) -> NearestSignReader:
         """Make a reader that compares signs with those of all demonstrations."""
         space = _sign_space(prototypes)
-        points = understanding.diagnostics["sign_points"]
+        shape = (len(demonstrations), len(demonstrations[0].signs), len(space.prototypes))
+        points = finite_array(understanding.diagnostics["sign_points"], "sign points", shape)
         return NearestSignReader(space, points, understanding, demonstrations.objects.shape[1])
 
 
