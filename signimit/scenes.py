@@ -13,20 +13,22 @@ LEAST_SEPARATION = 0.14  # m, between two objects
 REACH_SPEED = 0.35  # m/s, mean
 CONTROL_TIME = 0.02  # s, sampling of hand paths
 DRAWING_SPEED = (0.2, 0.4)  # m/s, mean; recordings made with a stylus on a small screen are brought into it
-ATTEMPTS = 5_000
+CANDIDATES, RESTARTS = 64, 100  # places tried before all objects are taken off again, and how often that happens
 
 
 def sample_scene(rng: np.random.Generator, objects: int = 3) -> NDArray[np.float64]:
-    """Draw positions of objects, shape (O, 2), m, table frame: uniform, at least 0.14 m apart.
+    """Draw positions of objects, shape (O, 2), m, table frame, one after the other, at least 0.14 m apart.
 
     Raises:
         InvalidInputError: If that many objects do not fit.
     """
-    for _ in range(ATTEMPTS):
-        scene = rng.uniform(-1.0, 1.0, (objects, 2)) * SCENE_HALF_EXTENT
-        gaps = np.linalg.norm(scene[:, None] - scene, axis=-1)
-        if (gaps[np.triu_indices(objects, 1)] >= LEAST_SEPARATION).all():
-            return scene
+    for _ in range(RESTARTS):
+        scene = np.empty((0, 2))
+        for candidate in rng.uniform(-1.0, 1.0, (CANDIDATES, 2)) * SCENE_HALF_EXTENT:
+            if (np.linalg.norm(scene - candidate, axis=1) >= LEAST_SEPARATION).all():
+                scene = np.concatenate([scene, candidate[None]])
+            if len(scene) == objects:
+                return scene
     raise InvalidInputError("scene", f"objects that fit {LEAST_SEPARATION} m apart", f"{objects}")
 
 

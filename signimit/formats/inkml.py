@@ -65,27 +65,38 @@ def read_inkml(path: str | os.PathLike[str]) -> StrokeLibrary:
     layout = _trace_format(root, where)
     traces = {_identity(e): e for e in root.iter() if local_name(e) == "trace"}
     recordings = []
-    for number, (element, lineage) in enumerate(_drawings(root)):
+    for number, drawing in enumerate(_drawings(root)):
         place = f"{where}: drawing {number}"
-        points = [_read_trace(trace, layout, place) for trace in _traces_of(element, traces, place)]
+        points = [_read_trace(trace, layout, place) for trace in _traces_of(drawing.element, traces, place)]
         pieces = [np.column_stack([p[:, layout.x], p[:, layout.y] * layout.up]) for p in points]
         stamps = None if layout.t is None else [p[:, layout.t] * layout.seconds for p in points]
-        label = _annotation(lineage, LABEL_TYPES) or Path(where).stem
-        recordings.append(Recording(pieces, stamps, label, _annotation(lineage, ("writer",)) or "unknown", place))
+        label = drawing.label or Path(where).stem
+        recordings.append(Recording(pieces, stamps, label, drawing.writer or "unknown", place))
     return library_from_recordings(recordings, f"InkML {os.path.basename(where)}")
 
 
-def _drawings(root: Element) -> list[tuple[Element, list[Element]]]:
-    """Return the elements that are one drawing each, and for each its ancestors, nearest first and itself included."""
-    found: list[tuple[Element, list[Element]]] = []
-    waiting: list[tuple[Element, list[Element]]] = [(root, [root])]
+class _Drawing(NamedTuple):
+    """An element that holds traces, and what it or the nearest element around it is annotated with."""
+
+    element: Element
+    label: str | None
+    writer: str | None
+
+
+def _drawings(root: Element) -> list[_Drawing]:
+    """Return the elements that are one drawing each, in the order of the file."""
+    whole = _Drawing(root, _annotation(root, LABEL_TYPES), _annotation(root, ("writer",)))
+    found, waiting = [], [whole]
     while waiting:
-        element, lineage = waiting.pop()
-        children = [child for child in element if isinstance(child.tag, str)]
-        if local_name(element) == "traceGroup" and any(local_name(c) in ("trace", "traceView") for c in children):
-            found.append((element, lineage))
-        waiting += [(child, [child, *lineage]) for child in reversed(children) if local_name(child) == "traceGroup"]
-    return found or [(root, [root])]
+        drawing = waiting.pop()
+        kinds = [local_name(child) for child in drawing.element]
+        if drawing is not whole and ("trace" in kinds or "traceView" in kinds):
+            found.append(drawing)
+        groups = [child for child, kind in zip(drawing.element, kinds, strict=True) if kind == "traceGroup"]
+        for group in reversed(groups):
+            label, writer = _annotation(group, LABEL_TYPES), _annotation(group, ("writer",))
+            waiting.append(_Drawing(group, label or drawing.label, writer or drawing.writer))
+    return found or [whole]
 
 
 def _traces_of(element: Element, traces: Mapping[str, Element], place: str) -> list[Element]:
@@ -106,12 +117,11 @@ def _identity(element: Element) -> str:
     return element.get(_ID) or element.get("id") or f"#{id(element)}"
 
 
-def _annotation(lineage: Sequence[Element], types: Sequence[str]) -> str | None:
-    """Return the text of the nearest annotation of one of these types."""
-    for element in lineage:
-        for child in element:
-            if local_name(child) == "annotation" and child.get("type", "").lower() in types and child.text:
-                return child.text.strip()
+def _annotation(element: Element, types: Sequence[str]) -> str | None:
+    """Return the text of an element's first annotation of one of these types."""
+    for child in element:
+        if local_name(child) == "annotation" and child.get("type", "").lower() in types and child.text:
+            return child.text.strip() or None
     return None
 
 

@@ -40,7 +40,7 @@ def read_strokes(paths: Iterable[str | os.PathLike[str]], format: str = AUTO) ->
     named = [Path(path) for path in paths]
     parts = [READERS[kind](file) for path in named for file, kind in _files(path, format)]
     if not any(parts):
-        raise FileFormatError(", ".join(map(str, named)), "files with strokes", "none")
+        raise FileFormatError(", ".join(map(str, named)) or "no path", "files with strokes", "none")
     return StrokeLibrary(
         tuple(stroke for part in parts for stroke in part),
         tuple(label for part in parts for label in part.labels),

@@ -162,9 +162,9 @@ def test_prototypes_are_the_languages(signs: StrokeLibrary) -> None:
 
 def test_a_library_without_a_word_or_a_movement_is_refused(signs: StrokeLibrary, movements: StrokeLibrary) -> None:
     rng = np.random.default_rng(0)
-    with pytest.raises(UnknownNameError, match="Unknown label '[23]'; known are 1"):
+    with pytest.raises(UnknownNameError, match=r"Unknown label '[23]'; known are 1"):
         compose_demonstrations(PAPER_LANGUAGE, signs.select("1"), movements, rng)
-    with pytest.raises(UnknownNameError, match="Unknown label 'triangle"):
+    with pytest.raises(UnknownNameError, match=r"Unknown label 'triangle"):
         compose_demonstrations(PAPER_LANGUAGE, signs, movements.select("circle"), rng)
 
 

@@ -21,7 +21,7 @@ def test_objects_are_on_the_table_and_apart(seed: int, objects: int) -> None:
 
 
 def test_too_many_objects_are_refused() -> None:
-    with pytest.raises(InvalidInputError, match="objects that fit 0.14 m apart, found 40"):
+    with pytest.raises(InvalidInputError, match=r"objects that fit 0\.14 m apart, found 40"):
         sample_scene(np.random.default_rng(0), 40)
 
 

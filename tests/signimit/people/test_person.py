@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from signimit import InvalidInputError, UnknownNameError
 from signimit.people import GOAL_LABELS, MOVEMENT_LABELS, SIGN_LABELS, Person, synthetic_library
@@ -10,12 +11,12 @@ from signimit.people.person import corners
 from signimit.strokes import Stroke
 
 
-def outline(stroke: Stroke, count: int = 64) -> np.ndarray:
+def outline(stroke: Stroke, count: int = 64) -> NDArray[np.float64]:
     way = np.r_[0, np.cumsum(np.linalg.norm(np.diff(stroke.points, axis=0), axis=1))]
     at = np.linspace(0, way[-1], count)
     points = np.column_stack([np.interp(at, way, stroke.points[:, axis]) for axis in (0, 1)])
     low, high = points.min(axis=0), points.max(axis=0)
-    return (points - (low + high) / 2) / (high - low).max()
+    return np.asarray((points - (low + high) / 2) / (high - low).max())
 
 
 @pytest.mark.parametrize("label", GLYPHS)

@@ -1,0 +1,28 @@
+"""Files are whole or not there."""
+
+from pathlib import Path
+
+import pytest
+
+from signimit.atomic import replaced_file
+
+
+def test_the_old_file_stays_until_the_new_one_is_whole(tmp_path: Path) -> None:
+    path = tmp_path / "a.txt"
+    path.write_bytes(b"old")
+    with replaced_file(path) as file:
+        file.write(b"new")
+        assert path.read_bytes() == b"old"
+    assert path.read_bytes() == b"new"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.txt"]
+
+
+def test_nothing_is_left_of_a_failed_file(tmp_path: Path) -> None:
+    def fail() -> None:
+        with replaced_file(tmp_path / "a.txt") as file:
+            file.write(b"half")
+            raise RuntimeError("power cut")
+
+    with pytest.raises(RuntimeError, match="power cut"):
+        fail()
+    assert list(tmp_path.iterdir()) == []
