@@ -81,5 +81,5 @@ def test_files_of_real_people_give_the_points_of_the_data_set() -> None:
             & (known["repetition"] == repetition)
         )
         part = slice(*known["offsets"][number : number + 2])
-        assert_allclose(library[0].points + (0, 320), known["xy"][part])  # that screen is 320 points high
+        assert_allclose(library[0].points + np.array([0, 320]), known["xy"][part])  # that screen is 320 points high
         assert_allclose(library[0].times, known["t_ms"][part] / 1000, atol=1e-6)

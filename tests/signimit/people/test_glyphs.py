@@ -23,7 +23,7 @@ def test_targets_and_arcs_go_together_and_cannot_be_written(label: str) -> None:
 
 
 def test_there_are_ten_digits_nine_movements_and_four_reaches() -> None:
-    assert SIGN_LABELS == tuple("0123456789")
+    assert tuple("0123456789") == SIGN_LABELS
     assert len(MOVEMENT_LABELS) == 9
     assert set(MOVEMENT_LABELS) > {"circle", "triangle up", "triangle down", "square", "zigzag", "spiral", "star"}
     assert len(set(SIGN_LABELS + MOVEMENT_LABELS + GOAL_LABELS)) == len(GLYPHS) == 23
