@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from signimit.command_line import run_program
+from signimit.exceptions import InvalidInputError
 from signimit.output import whole_files
 from signimit.policies import DEFAULT_POLICY
 from signimit_envs.casting import Source, cast_people
@@ -22,6 +23,7 @@ def main(
     method: str = "paper",
     policy: str = DEFAULT_POLICY,
     attempts: int = 1,
+    seconds: float = 10.0,
     out: Path = Path("out/sessions"),
     signs: Path | None = None,
     movements: Path | None = None,
@@ -34,15 +36,18 @@ def main(
         method: How to learn.
         policy: Kind of policy that moves the hand.
         attempts: How often each of the nine pairs of signs is asked for in a session.
+        seconds: How long the arm moves each time.
         out: Folder for sessions.json.
         signs: Stroke library of real people who make the signs, another one each time; left out, synthetic ones.
         movements: Stroke library of real people who show the movements; left out, synthetic ones.
     """
     from tqdm import tqdm
 
+    if sessions < 1:
+        raise InvalidInputError("sessions", "at least 1", f"{sessions}")
     outcomes: list[SessionOutcome] = []
     for seed in tqdm(range(first_seed, first_seed + sessions), "sessions"):
-        plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts)
+        plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
         cast = cast_people(plan.language, np.random.default_rng([seed, 1]), Source(signs), Source(movements))
         outcomes.append(session_outcome(run_session(plan, cast)))
     print(study_table(outcomes))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from signimit.frames import TablePolicy
 from signimit.inference import WordOrder
 from signimit_envs.casting import Cast, cast_people
 from signimit_envs.report import inference_lines, session_report, session_table, truth_text
-from signimit_envs.session import SessionPlan, SessionResult, compose_session, run_session
+from signimit_envs.session import Command, SessionPlan, SessionResult, compose_session, run_session
 from signimit_envs.study import session_outcome, study_report, study_table
 from signimit_envs.verdicts import (
     Share,
@@ -75,18 +77,24 @@ def test_the_same_seed_gives_the_same_session(cast: Cast) -> None:
 
 
 def test_the_seed_changes_the_session(cast: Cast) -> None:
-    hands = [compose_session(replace(PLAN, seed=s), cast).commands[0].hand for s in (0, 1)]
-    assert not np.array_equal(*hands)
+    first, second = (compose_session(replace(PLAN, seed=s), cast).commands[0].hand for s in (0, 1))
+    assert not np.array_equal(first, second)
 
 
 def test_progress_is_told_command_by_command(cast: Cast) -> None:
     seen = []
-    run_session(replace(PLAN, seconds=1.0), cast, lambda commands: (seen.append(c.request) or c for c in commands))
+
+    def track(commands: Sequence[Command]) -> Iterator[Command]:
+        for command in commands:
+            seen.append(command.request)
+            yield command
+
+    run_session(replace(PLAN, seconds=1.0), cast, track)
     assert seen == list(PLAN.language.requests)
 
 
 @pytest.mark.parametrize("wrong", [{"seed": -1}, {"attempts": 0}, {"seconds": 0.5}, {"seconds": float("nan")}])
-def test_a_plan_without_anything_to_see_is_refused(wrong: dict[str, float]) -> None:
+def test_a_plan_without_anything_to_see_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(InvalidInputError, match=next(iter(wrong))):
         replace(PLAN, **wrong)
 
@@ -116,7 +124,7 @@ def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult) -
     labels, focus = np.zeros_like(model.labels), (model.focus + 1) % 3
     order = WordOrder(model.word_order.movement, model.word_order.focus)
 
-    def stage(**changes: object) -> str:
+    def stage(**changes: Any) -> str:
         other = replace(model, understanding=understood._replace(**changes))
         return failing_stage(SessionResult(result.session, other, result.reproductions), failed)
 

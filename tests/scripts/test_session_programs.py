@@ -1,0 +1,107 @@
+"""The programs that make demonstrations, learn and reproduce: they write what they say, and refuse in one sentence."""
+
+from __future__ import annotations
+
+import json
+import runpy
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import signimit as si
+
+pytest.importorskip("tyro")
+pytest.importorskip("tqdm")
+pytest.importorskip("matplotlib")
+SCRIPTS = Path(__file__).parents[2] / "scripts"
+
+
+class Programs:
+    """Runs programs in this process."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+        self._monkeypatch, self._capsys = monkeypatch, capsys
+
+    def __call__(self, name: str, *arguments: object) -> str:
+        """Run a program to its end and return what it said."""
+        self._monkeypatch.setattr(sys, "argv", [str(SCRIPTS / f"{name}.py"), *map(str, arguments)])
+        runpy.run_path(str(SCRIPTS / f"{name}.py"), run_name="__main__")
+        return self._capsys.readouterr().out
+
+    def refusal(self, name: str, *arguments: object) -> str:
+        """Run a program that must end with code 2, and return its complaint."""
+        with pytest.raises(SystemExit) as stop:
+            self(name, *arguments)
+        assert stop.value.code == 2
+        said: str = self._capsys.readouterr().err
+        return said
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Programs:
+    return Programs(monkeypatch, capsys)
+
+
+def test_demonstrations_that_are_made_can_be_learned_from(run: Programs, tmp_path: Path) -> None:
+    run("make_demonstrations", "--out", tmp_path / "demos")
+    demos = tmp_path / "demos"
+    said = run(
+        "learn", demos / "demonstrations.npz", "--prototypes", demos / "prototypes.npz", "--out", tmp_path / "m.npz"
+    )
+    model = si.ImitationModel.load(tmp_path / "m.npz")
+    assert model.summary() in said
+    truth = json.loads((demos / "truth.json").read_text())["demonstrations"]
+    assert len(truth) == len(si.DemonstrationSet.load(demos / "demonstrations.npz")) == 12
+
+
+def test_reproduce_writes_results_and_figures_and_prints_the_table(run: Programs, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    said = run("reproduce", "--out", out, "--no-video", "--attempts", 1, "--seconds", 3)
+    assert "12 demonstrations show 3 movements" in said
+    assert "obeyed, unseen: " in said
+    pictures = ["figure4.png", "figure5.png", "figure6.png", "figure7.png", "memberships.png"]
+    assert sorted(p.name for p in out.iterdir()) == [*pictures, "results.json"]
+    results = json.loads((out / "results.json").read_text())
+    assert len(results["reproductions"]) == 9
+
+
+def test_sessions_counts_over_several_sessions(run: Programs, tmp_path: Path) -> None:
+    said = run("sessions", "--sessions", 1, "--seconds", 1, "--out", tmp_path)
+    assert "all inferences right" in said
+    assert json.loads((tmp_path / "sessions.json").read_text())["shares"]["obeyed"]["total"] == 9
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "complaint"),
+    [
+        ("learn", ["none.npz"], "none.npz: No such file"),
+        ("learn", [SCRIPTS / "learn.py"], "expected a signimit demonstration set file"),
+        ("reproduce", ["--method", "guess"], "Unknown method 'guess'"),
+        ("reproduce", ["--seed", -1], "seed: expected zero or more"),
+        ("reproduce", ["--signs", "none.npz"], "none.npz: No such file"),
+        ("reproduce", ["--signer", "me"], "a stroke library to find them in"),
+        ("make_demonstrations", ["--movements", SCRIPTS / "learn.py"], "expected a signimit stroke library file"),
+        ("sessions", ["--sessions", 0], "sessions: expected at least 1"),
+    ],
+)
+def test_bad_input_gets_one_sentence_and_leaves_no_file(
+    run: Programs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, arguments: list[object], complaint: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    said = run.refusal(name, *arguments)
+    assert complaint in said
+    assert said.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_hand_that_never_moves_is_refused_by_name(run: Programs, tmp_path: Path) -> None:
+    run("make_demonstrations", "--out", tmp_path)
+    with np.load(tmp_path / "demonstrations.npz") as archive:
+        arrays = dict(archive)
+    cut = arrays["hand_offsets"]
+    arrays["hand"][cut[3] : cut[4]] = 0.1
+    np.savez(tmp_path / "resting.npz", **arrays)
+    said = run.refusal("learn", tmp_path / "resting.npz")
+    assert "resting.npz: demonstration 3: hand" in said
