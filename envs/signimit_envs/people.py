@@ -15,7 +15,7 @@ from signimit.people import MOVEMENT_LABELS, Person, synthetic_library
 
 MOVEMENTS = ("triangle up", "triangle down", "circle")
 _DIGITS = "1234567890"
-_DRAWINGS = 3  # of each movement; the judge takes the two that fit best
+_DRAWINGS = 2  # of each movement
 
 
 @dataclass(frozen=True, eq=False)

@@ -48,7 +48,7 @@ def choose_backend() -> str:
     already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
     for backend in (*(("glfw",) if has_display() else ()), "egl", "osmesa"):
         if already in ("", "glx", backend) and _works(backend):
-            return backend
+            return str(backend)
     raise RenderingError("no OpenGL library was found", INSTALL)
 
 

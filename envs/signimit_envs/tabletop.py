@@ -15,14 +15,13 @@ from signimit.signs import SAMPLES
 from signimit_envs.hand_control import HandController, JointCommand
 from signimit_envs.judging import Judge
 from signimit_envs.people import MOVEMENTS, People
-from signimit_envs.physics_log import quiet_log
+from signimit_envs.physics_log import QuietLog
 from signimit_envs.rendering import OffscreenView, WindowView, has_display
 from signimit_envs.scene import CONTROL_RATE, MAX_JOINT_SPEED, SUBSTEPS, TABLE, compile_scene, object_bodies
 from signimit_envs.situations import WORDS, Situation, draw_situation
 
 Observation = dict[str, NDArray[np.float64]]
 
-_DT = 1.0 / CONTROL_RATE
 _LEAST_RESIDUAL = 1e-3  # m, farther than this from where it should start the hand is out of reach
 _CAMERAS = ("perspective", "top")
 _MODES = ("rgb_array", "human")
@@ -62,7 +61,9 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         self._bodies = object_bodies(self.model)
         self._hand_site = self.model.site("hand").id
         self._jacobian = np.zeros((3, self.model.nv))
-        self._lower, self._upper = self.model.jnt_range.T.copy()
+        self._ranges = self.model.jnt_range.tolist()
+        self._warnings = self.data.warning.number  # a live view; mj_resetData clears it
+        self._quiet_log = QuietLog()
         self._camera = camera
         self._offscreen = OffscreenView(self.model, *size)
         self._window = WindowView(self.model) if render_mode == "human" else None
@@ -139,24 +140,33 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
             values = np.asarray(action, dtype=np.float64)
         except (TypeError, ValueError):
             values = np.empty(0)
-        if values.shape != (self._action_size,) or not np.isfinite(values).all():
-            raise InvalidInputError("action", f"{self._action_size} finite numbers in [-1, 1]", repr(action))
-        return np.minimum(np.maximum(values, -1.0), 1.0)
+        if values.shape != (self._action_size,):
+            raise InvalidInputError("action", f"{self._action_size} numbers in [-1, 1]", repr(action))
+        for value in values.tolist():  # no comparison holds for NaN; for so few numbers a loop is the fastest
+            if not -1.0 <= value <= 1.0:
+                return self._clipped(values)
+        return values
+
+    def _clipped(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        if not np.isfinite(values).all():
+            raise InvalidInputError("action", f"{self._action_size} finite numbers in [-1, 1]", repr(values))
+        return values.clip(-1.0, 1.0)
 
     def _simulate(self, velocities: NDArray[np.float64]) -> str:
         """Track joint velocities for one control step, stopping at the joints' limits; return what went wrong."""
-        joints, warnings = self.data.qpos, self.data.warning
-        room = np.minimum(np.maximum(velocities, (self._lower - joints) / _DT), (self._upper - joints) / _DT)
-        self.data.ctrl[:] = room
-        before = warnings.number.sum()
-        with quiet_log():
-            mujoco.mj_step(self.model, self.data, SUBSTEPS)
-        if warnings.number.sum() == before:
-            # What mj_step leaves behind was computed before its last integration.
-            mujoco.mj_kinematics(self.model, self.data)
-            mujoco.mj_comPos(self.model, self.data)
-            return ""
-        return "the physics blew up and the arm was put back where it was before this step"
+        data = self.data
+        data.ctrl[:] = [
+            min(max(velocity, (low - joint) * CONTROL_RATE), (high - joint) * CONTROL_RATE)
+            for velocity, joint, (low, high) in zip(velocities.tolist(), data.qpos.tolist(), self._ranges, strict=True)
+        ]
+        with self._quiet_log:
+            mujoco.mj_step(self.model, data, SUBSTEPS)
+        if any(self._warnings.tolist()):
+            return "the physics blew up; the arm was put back where it was before this step"
+        # What mj_step leaves behind was computed before its last integration.
+        mujoco.mj_kinematics(self.model, data)
+        mujoco.mj_comPos(self.model, data)
+        return ""
 
     def _place(self, start: Situation, joints: NDArray[np.float64]) -> None:
         """Put objects and a resting arm in their places."""
