@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -99,15 +99,18 @@ def _drawings(root: Element) -> list[_Drawing]:
     return found or [whole]
 
 
-def _traces_of(element: Element, traces: Mapping[str, Element], place: str) -> list[Element]:
-    """Return the pen-down traces of a drawing, those it refers to included."""
+def _traces_of(element: Element, traces: dict[str, Element], place: str) -> list[Element]:
+    """Return the pen-down traces of a drawing; those it refers to are taken out of ``traces``.
+
+    So a small file cannot refer to one large trace a million times.
+    """
     members = []
     for child in element if local_name(element) == "traceGroup" else element.iter():
         if local_name(child) == "traceView" and local_name(element) == "traceGroup":
             name = child.get("traceDataRef", "").lstrip("#")
             if name not in traces:
-                raise FileFormatError(place, "a traceView of a trace in this file", repr(name))
-            members.append(traces[name])
+                raise FileFormatError(place, "a traceView of a trace in this file, viewed once", repr(name))
+            members.append(traces.pop(name))
         elif local_name(child) == "trace":
             members.append(child)
     return [trace for trace in members if trace.get("type", "penDown") != "penUp"]

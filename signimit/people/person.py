@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,7 +90,9 @@ class Person:
         """Draw a person."""
         style = Style.sample(rng)
         habits = {label: rng.normal(0.0, 0.08, glyph.targets.shape) for label, glyph in GLYPHS.items()}
-        return cls(style, MappingProxyType(habits))
+        for habit in habits.values():
+            habit.setflags(write=False)
+        return cls(style, habits)
 
     def draw(self, label: str, rng: np.random.Generator) -> Stroke:
         """Draw a glyph once.

@@ -89,7 +89,15 @@ def test_explicit_values_and_no_namespace_are_understood(tmp_path: Path) -> None
         (TIMED.replace('"ms"', '"h"') + "<trace>2 0 0, 1 1 1</trace>", "expected channel T in s, ms, us, found 'h'"),
         (TIMED.replace('"X"', '"F"') + "<trace>2 0 0, 1 1 1</trace>", "expected channels X and Y, found T, F, Y"),
         (f"{TIMED}{TIMED.replace('ms', 's')}<trace>1 0 0, 2 1 1</trace>", "one trace format, found 2 different"),
-        ('<traceGroup><traceView traceDataRef="#7"/></traceGroup>', "a traceView of a trace in this file, found '7'"),
+        (
+            '<traceGroup><traceView traceDataRef="#7"/></traceGroup>',
+            "a traceView of a trace in this file, viewed once, found '7'",
+        ),
+        (
+            '<trace id="7">0 0,1 1</trace><traceGroup><traceView traceDataRef="#7"/><traceView traceDataRef="#7"/>'
+            "</traceGroup>",
+            "viewed once, found '7'",
+        ),
     ],
 )
 def test_what_is_not_understood_gives_one_sentence(tmp_path: Path, body: str, match: str) -> None:

@@ -1,5 +1,7 @@
 """Synthetic people: everybody has a style, and nobody draws anything twice the same way."""
 
+import pickle
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -62,6 +64,15 @@ def test_people_differ_more_from_one_another_than_from_themselves(label: str) ->
     within = shapes.var(axis=1).mean()
     between = shapes.mean(axis=1).var(axis=0).mean()
     assert between > within
+
+
+def test_a_person_survives_pickling_and_habits_cannot_be_written() -> None:
+    person = Person.sample(np.random.default_rng(0))
+    same = pickle.loads(pickle.dumps(person))
+    drawings = [p.draw("8", np.random.default_rng(1)).points for p in (person, same)]
+    assert np.array_equal(*drawings)
+    with pytest.raises(ValueError, match="read-only"):
+        person.habits["8"][0] = 0.0
 
 
 def test_a_library_is_called_synthetic_and_counts_its_writers() -> None:
