@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.strokes import cut, flatten, unflatten
+from signimit.strokes import cut, flatten
 from signimit.validation import finite_array, increasing_times, item_list, moving_points
 
 KIND, VERSION = "demonstration set", 1
@@ -153,7 +153,7 @@ class DemonstrationSet(Sequence[Demonstration]):
         """Rebuild a set from `to_arrays`, complaining about ``where`` if that cannot be."""
         try:
             objects = finite_array(arrays["objects"], "objects", (None, None, 2))
-            hands = unflatten(arrays["hand"], arrays["times"], arrays["hand_offsets"])
+            hands, times = (cut(arrays[name], name, arrays["hand_offsets"]) for name in ("hand", "times"))
             strokes = cut(arrays["signs"], "signs", arrays["sign_offsets"])
             count, words = len(hands), len(strokes) // max(1, len(hands))
             if len(objects) != count or words * count != len(strokes):
@@ -163,10 +163,10 @@ class DemonstrationSet(Sequence[Demonstration]):
                     f"{len(objects)} and {len(strokes)}",
                 )
             made = []
-            for i, (hand, times) in enumerate(hands):
+            for i, hand in enumerate(hands):
                 signs = strokes[i * words : (i + 1) * words]
                 try:
-                    made.append(Demonstration(tuple(signs), objects[i], hand, times))
+                    made.append(Demonstration(tuple(signs), objects[i], hand, times[i]))
                 except InvalidInputError as error:
                     raise error.inside(f"demonstration {i}") from None
             return cls(made)

@@ -150,10 +150,11 @@ class StrokeLibrary(Sequence[Stroke]):
         arrays, meta = read_archive(path, KIND, VERSION)
         where = os.fspath(path)
         try:
-            parts = unflatten(arrays["points"], arrays["times"], arrays["offsets"])
+            offsets = arrays["offsets"]
+            points, times = (cut(arrays[name], name, offsets) for name in ("points", "times"))
             labels, writers = (np.atleast_1d(arrays[name]).tolist() for name in ("labels", "writers"))
             strokes = []
-            for i, (p, t) in enumerate(parts):
+            for i, (p, t) in enumerate(zip(points, times, strict=True)):
                 try:
                     strokes.append(Stroke(p, t))
                 except InvalidInputError as error:
@@ -175,19 +176,8 @@ def flatten(
     return points, times, offsets
 
 
-def unflatten(
-    points: ArrayLike, times: ArrayLike, offsets: ArrayLike
-) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
-    """Undo `flatten`.
-
-    Raises:
-        InvalidInputError: If the offsets do not cut these arrays.
-    """
-    return list(zip(cut(points, "points", offsets), cut(times, "times", offsets), strict=True))
-
-
 def cut(flat: ArrayLike, where: str, offsets: ArrayLike) -> list[NDArray[np.float64]]:
-    """Cut points, shape (T, 2), or times, shape (T,), apart at their offsets.
+    """Undo `flatten`: cut points, shape (T, 2), or times, shape (T,), at their offsets.
 
     Raises:
         InvalidInputError: If they are not numbers, or the offsets do not cut them.
