@@ -1,13 +1,31 @@
-"""Making the labels of a public data set those of a language, and mirror images of its drawings."""
+"""Making a public data set fit a language: choosing from it, renaming labels, adding mirror images."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import numpy as np
 
 from signimit.exceptions import UnknownNameError
 from signimit.strokes import Stroke, StrokeLibrary
+
+
+def selected(library: StrokeLibrary, labels: Collection[str] = (), writers: Collection[str] = ()) -> StrokeLibrary:
+    """Return the strokes with one of these labels by one of these writers, in the library's order; empty means all.
+
+    Raises:
+        UnknownNameError: If the library lacks one of them.
+    """
+    for name, wanted, known in (("label", labels, library.labels), ("writer", writers, library.writers)):
+        _check_names(name, wanted, known)
+    rows = zip(library.strokes, library.labels, library.writers, strict=True)
+    kept = [row for row in rows if (not labels or row[1] in labels) and (not writers or row[2] in writers)]
+    return StrokeLibrary(
+        tuple(stroke for stroke, _, _ in kept),
+        tuple(label for _, label, _ in kept),
+        tuple(writer for _, _, writer in kept),
+        library.source,
+    )
 
 
 def renamed(library: StrokeLibrary, names: Mapping[str, str]) -> StrokeLibrary:
@@ -16,7 +34,7 @@ def renamed(library: StrokeLibrary, names: Mapping[str, str]) -> StrokeLibrary:
     Raises:
         UnknownNameError: If the library lacks a label.
     """
-    _check_labels(library, names)
+    _check_names("label", names, library.labels)
     labels = tuple(names.get(label, label) for label in library.labels)
     return StrokeLibrary(library.strokes, labels, library.writers, library.source)
 
@@ -31,7 +49,7 @@ def with_mirror_images(library: StrokeLibrary, names: Mapping[str, str]) -> Stro
     Raises:
         UnknownNameError: If the library lacks a label.
     """
-    _check_labels(library, names)
+    _check_names("label", names, library.labels)
     chosen = [i for i, label in enumerate(library.labels) if label in names]
     flip = np.array([1.0, -1.0])
     images = StrokeLibrary(
@@ -43,7 +61,7 @@ def with_mirror_images(library: StrokeLibrary, names: Mapping[str, str]) -> Stro
     return library + images
 
 
-def _check_labels(library: StrokeLibrary, names: Mapping[str, str]) -> None:
-    for label in names:
-        if label not in library.labels:
-            raise UnknownNameError("label", label, sorted(set(library.labels)))
+def _check_names(what: str, names: Collection[str], known: Collection[str]) -> None:
+    for name in names:
+        if name not in known:
+            raise UnknownNameError(what, name, sorted(set(known)))

@@ -3,6 +3,7 @@
 from signimit.formats.dollar import read_dollar as read_dollar
 from signimit.formats.inkml import read_inkml as read_inkml
 from signimit.formats.inkml_writer import write_inkml as write_inkml
+from signimit.formats.inventory import inventory_table as inventory_table
 from signimit.formats.reading import READERS as READERS
 from signimit.formats.reading import detect_format as detect_format
 from signimit.formats.reading import read_strokes as read_strokes

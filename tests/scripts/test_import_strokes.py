@@ -59,7 +59,7 @@ def test_it_keeps_the_writers_asked_for_and_writes_inkml(digits: Path, tmp_path:
 def test_a_broken_file_gives_one_sentence_and_no_output_file(digits: Path, tmp_path: Path) -> None:
     digits.write_text(UNIPEN.replace("3 9", "3 nine"))
     done = run(digits, "--out", tmp_path / "library.npz")
-    assert done.returncode == 1
+    assert done.returncode == 2
     assert done.stdout == ""
     assert done.stderr == f"import_strokes: {digits}: line 11: expected two numbers, found '3 nine'.\n"
     assert [p.name for p in tmp_path.iterdir()] == ["digits.txt"]

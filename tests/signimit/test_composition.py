@@ -94,6 +94,16 @@ def test_the_same_generator_state_composes_the_same_bytes(signs: StrokeLibrary, 
     assert bytes_of(5) != bytes_of(6)
 
 
+def test_a_published_seed_keeps_its_session() -> None:
+    signs = synthetic_library(SIGN_LABELS, samples=2, rng=np.random.default_rng(0))
+    movements = synthetic_library(PAPER_LANGUAGE.movements, samples=2, rng=np.random.default_rng(1))
+    made, truth = compose_demonstrations(PAPER_LANGUAGE, signs, movements, np.random.default_rng(2))
+    assert truth.requests[0] == (1, 0)
+    assert_allclose(made[0].objects, [(0.027397, -0.125978), (-0.029642, 0.060947), (0.205672, 0.065903)], atol=1e-6)
+    assert made[0].hand.shape == (236, 2)
+    assert_allclose(made[0].hand[-1], (-0.059112, -0.019633), atol=1e-6)
+
+
 def test_labels_and_truth_cannot_be_reached_from_the_demonstrations(
     session: tuple[DemonstrationSet, GroundTruth],
 ) -> None:

@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from signimit import Stroke, StrokeLibrary, UnknownNameError
-from signimit.relabelling import renamed, with_mirror_images
+from signimit.relabelling import renamed, selected, with_mirror_images
 
 
 @pytest.fixture
@@ -26,6 +26,16 @@ def test_mirror_images_are_added_upside_down(library: StrokeLibrary) -> None:
     assert new.writers == ("a", "a", "b", "a", "b")
     assert new.source == "here"
     assert_allclose(new[4].points, [(0, 0), (2, -2)])
+
+
+def test_labels_and_writers_are_chosen_in_the_librarys_order(library: StrokeLibrary) -> None:
+    assert selected(library).strokes == library.strokes
+    assert selected(library, writers=["b", "a"]).writers == ("a", "a", "b")
+    assert selected(library, ["triangle"], ["b"]).strokes == library[2:]
+    with pytest.raises(UnknownNameError, match="Unknown writer 'c'; known are a, b"):
+        selected(library, writers=["c"])
+    with pytest.raises(UnknownNameError, match="Unknown label 'heart'"):
+        selected(library, ["heart"])
 
 
 @pytest.mark.parametrize("change", [renamed, with_mirror_images])

@@ -68,11 +68,19 @@ def test_people_differ_more_from_one_another_than_from_themselves(label: str) ->
 
 def test_a_person_survives_pickling_and_habits_cannot_be_written() -> None:
     person = Person.sample(np.random.default_rng(0))
-    same = pickle.loads(pickle.dumps(person))
-    drawings = [p.draw("8", np.random.default_rng(1)).points for p in (person, same)]
-    assert np.array_equal(*drawings)
+    same: Person = pickle.loads(pickle.dumps(person))
+    first, again = (p.draw("8", np.random.default_rng(1)).points for p in (person, same))
+    assert np.array_equal(first, again)
     with pytest.raises(ValueError, match="read-only"):
         person.habits["8"][0] = 0.0
+
+
+def test_the_built_in_people_stay_who_they_are() -> None:
+    """Published seeds would mean other sessions if these numbers changed."""
+    stroke = Person.sample(np.random.default_rng(0)).draw("circle", np.random.default_rng(1))
+    assert len(stroke) == 228
+    expected = [(-0.00662, 0.096861), (0.103666, 0.016681), (0.009272, 0.107925)]
+    np.testing.assert_allclose(stroke.points[[0, 50, -1]], expected, atol=1e-6)
 
 
 def test_a_library_is_called_synthetic_and_counts_its_writers() -> None:
