@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from signimit.evaluation import (
     NOTHING,
     TOLERANCE,
-    Template,
     movement_error,
     performed,
     prepare_templates,
@@ -20,7 +19,8 @@ from signimit.languages import Request
 
 WINDOW = 600  # samples of the past that count: 12 s
 _FIRST, _BETWEEN = 75, 25  # control steps until the first look, and between looks
-_NEAR = 1.3  # tolerances of the rough misfit within which a movement is worth an exact look
+_NEAR = 1.3  # tolerances: beyond, with room for what a glance overlooks, no exact look is needed
+_COMPLEX = np.array([1.0, 1.0j])  # x and y to one number
 _THIN = 4  # one in so many points is enough for a glance
 
 
@@ -62,7 +62,7 @@ class Judge:
         """Take the drawings that show each movement, in the object's frame, m."""
         self._templates = templates
         self._prepared = prepare_templates(templates)
-        self._thinned = [[_thin(drawings[0])] for drawings in self._prepared]
+        self._thinned = [(d[0].points[::_THIN] @ _COMPLEX, d[0].half_size) for d in self._prepared]
         self._path = PathRecord()
         self._objects = np.zeros((0, 2))
         self._request = Request(0, 0)
@@ -96,16 +96,18 @@ class Judge:
         return self.done
 
     def _requested_error(self) -> float:
-        """Misfit of the path so far to what was asked for; roughly, where it is far from it."""
+        """Misfit of the path so far to what was asked for, infinite where a glance rules it out."""
         tail = settled_part(self._path.latest)
         if tail is None:
             return np.inf
         tail = tail - self._objects[self._request.focus]
-        roughly = movement_error(tail[::_THIN], self._thinned[self._request.movement])
-        if roughly > _NEAR * TOLERANCE:
-            return roughly
+        if _least_error(tail, self._thinned[self._request.movement]) > _NEAR * TOLERANCE:
+            return np.inf
         return movement_error(tail, self._prepared[self._request.movement])
 
 
-def _thin(drawing: Template) -> Template:
-    return Template(drawing.points[::_THIN], drawing.directions[::_THIN], drawing.half_size)
+def _least_error(tail: NDArray[np.float64], drawing: tuple[NDArray[np.complex128], float]) -> float:
+    """Mean gaps there and back between one in so many points, in half sizes: the misfit without directions."""
+    points, half_size = drawing
+    gaps = np.abs((tail[::_THIN] @ _COMPLEX)[:, None] - points)
+    return float(gaps.min(axis=1).mean() + gaps.min(axis=0).mean()) / (2 * half_size)

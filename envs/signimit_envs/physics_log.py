@@ -8,21 +8,23 @@ import mujoco
 
 
 class QuietLog:
-    """Context in which MuJoCo neither prints warnings nor writes MUJOCO_LOG.TXT; afterwards all is as before."""
+    """Context in which MuJoCo neither prints warnings nor writes MUJOCO_LOG.TXT.
+
+    It is entered in every control step, so both settings are read once, when it is made; after the block MuJoCo logs as
+    it did then.
+    """
 
     def __init__(self) -> None:
-        """Prepare the silence: entered in every control step, so it costs a microsecond."""
-        self._silent = mujoco.MjLogConfig.get()
+        """Read how MuJoCo logs."""
+        self._usual, self._silent = mujoco.MjLogConfig.get(), mujoco.MjLogConfig.get()
         self._silent.logto_file = self._silent.logto_console = False
-        self._before = self._silent
 
     def __enter__(self) -> None:
-        """Remember how MuJoCo logs, and silence it."""
-        self._before = mujoco.MjLogConfig.get()
+        """Silence MuJoCo."""
         self._silent.set()
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Let MuJoCo log as before."""
-        self._before.set()
+        self._usual.set()

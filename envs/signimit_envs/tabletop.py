@@ -61,9 +61,9 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         self._bodies = object_bodies(self.model)
         self._hand_site = self.model.site("hand").id
         self._jacobian = np.zeros((3, self.model.nv))
+        self._planar_jacobian = self._jacobian[:2]
         self._ranges = self.model.jnt_range.tolist()
         self._warnings = self.data.warning.number  # a live view; mj_resetData clears it
-        self._quiet_log = QuietLog()
         self._camera = camera
         self._offscreen = OffscreenView(self.model, *size)
         self._window = WindowView(self.model) if render_mode == "human" else None
@@ -86,6 +86,7 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         if away > _LEAST_RESIDUAL:
             raise InvalidInputError("reset option hand", "a position within the arm's reach", f"{start.hand}")
         self._situation = start
+        self._quiet_log = QuietLog()
         self._place(start, joints)
         self._judge.start(start.request, start.objects, start.hand)
         if self.render_mode == "human":
@@ -180,7 +181,7 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         mujoco.mj_jacSite(self.model, data, self._jacobian, None, self._hand_site)
         return {
             "hand": data.site_xpos[self._hand_site, :2].copy(),
-            "hand_velocity": self._jacobian[:2] @ data.qvel,
+            "hand_velocity": self._planar_jacobian.dot(data.qvel),
             "joints": data.qpos.copy(),
             "joint_velocities": data.qvel.copy(),
             "objects": self._situation.objects.copy(),
