@@ -4,9 +4,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-from tyro.conf import Positional
 
 from signimit.command_line import run_program
 from signimit.formats import inventory_table, read_strokes, write_inkml
@@ -14,13 +11,14 @@ from signimit.relabelling import renamed, selected, with_mirror_images
 
 
 def main(
-    paths: Annotated[tuple[Path, ...], Positional],
+    paths: tuple[Path, ...],
+    /,
     out: Path,
     format: str = "auto",
     writer: tuple[str, ...] = (),
     label: tuple[str, ...] = (),
-    rename: dict[str, str] | None = None,
-    mirror: dict[str, str] | None = None,
+    rename: tuple[tuple[str, str], ...] = (),
+    mirror: tuple[tuple[str, str], ...] = (),
 ) -> None:
     """Read UNIPEN text, $1 recogniser XML, W3C InkML or our own libraries into one library file.
 
@@ -33,10 +31,10 @@ def main(
         writer: Keep these writers only.
         label: Keep these labels only, as the files have them.
         rename: Pairs of a label and its new one, e.g. triangle "triangle up".
-        mirror: Pairs of a (new) label and that of its upside-down images, which are added, e.g. "triangle up" "triangle down".
+        mirror: Pairs of a (new) label and that of its upside-down images, which are added.
     """
     library = selected(read_strokes(paths, format), label, writer)
-    library = with_mirror_images(renamed(library, rename or {}), mirror or {})
+    library = with_mirror_images(renamed(library, dict(rename)), dict(mirror))
     if out.suffix == ".inkml":
         write_inkml(out, library)
     else:
