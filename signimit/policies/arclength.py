@@ -32,7 +32,7 @@ def space_path(stroke: Stroke, spacing: float) -> SpacedPath:
     """Resample a timed path at about equal steps of ``spacing`` metres along it, at least four of them."""
     lengths = arc_lengths(stroke.points)
     moving = np.concatenate([[True], np.diff(lengths) > 1e-9 * lengths[-1]])
-    even = np.linspace(0.0, lengths[-1], max(int(round(lengths[-1] / spacing)), 4) + 1)
+    even = np.linspace(0.0, lengths[-1], max(round(lengths[-1] / spacing), 4) + 1)
     return SpacedPath(
         interpolate(even, lengths[moving], stroke.points[moving]),
         np.interp(even, lengths[moving], stroke.times[moving]),
@@ -43,7 +43,7 @@ def space_course(points: Array, spacing: float, closed: bool) -> Array:
     """Resample a course at about equal steps of ``spacing`` metres; a closed one does not repeat its first point."""
     line = np.concatenate([points, points[:1]]) if closed else points
     lengths = arc_lengths(line)
-    even = np.linspace(0.0, lengths[-1], max(int(round(lengths[-1] / spacing)), 4) + 1)
+    even = np.linspace(0.0, lengths[-1], max(round(lengths[-1] / spacing), 4) + 1)
     return interpolate(even[:-1] if closed else even, lengths, line)
 
 
@@ -57,4 +57,5 @@ def unit_tangents(points: Array, closed: bool) -> Array:
     steps = (
         np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0) if closed else np.gradient(points, axis=0)
     )
-    return steps / np.maximum(np.hypot(*steps.T), 1e-12)[:, None]
+    tangents: Array = steps / np.maximum(np.hypot(*steps.T), 1e-12)[:, None]
+    return tangents

@@ -73,8 +73,8 @@ def _by_phase(phases: NDArray[np.int64], points: Array, stamps: Array) -> tuple[
     count = np.bincount(phases - first)
     known = np.flatnonzero(count)
     sums = [np.bincount(phases - first, values)[known] / count[known] for values in (*points.T, stamps)]
-    every = np.arange(len(count))
-    return first, interpolate(every, known, np.stack(sums[:2], axis=1)), np.interp(every, known, sums[2])
+    every, at = np.arange(len(count), dtype=np.float64), known.astype(np.float64)
+    return first, interpolate(every, at, np.stack(sums[:2], axis=1)), np.interp(every, at, sums[2])
 
 
 def mean_pass(passes: Sequence[Pass]) -> MeanPass:

@@ -1,9 +1,9 @@
 """What a movement is, apart from how one gets to it: the course that all its demonstrations share.
 
-Nothing here assumes a circle, a period or that the movement does not cross itself. Candidate courses are taken from the
-demonstrations: what lies between a demonstration's end and each earlier moment at which it came back to that place
-(closed), and the demonstration as a whole (open). The candidate that tells most about all demonstrations with the fewest
-nodes is kept and refined by barycentre averaging.
+Nothing here assumes a circle, a period or that the movement does not cross itself. Candidate courses are taken from
+the demonstrations: what lies between a demonstration's end and each earlier moment at which it came by that place
+(closed), and the demonstration as a whole (open). The candidate that tells most about all demonstrations with the
+fewest nodes is kept and refined by barycentre averaging.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from signimit.policies.arclength import SpacedPath, arc_lengths, space_course, space_path
 from signimit.policies.barycentre import MeanPass, cut_passes, mean_pass
+from signimit.policies.overshoot import without_overshoot
 from signimit.policies.phase_alignment import PhaseAlignment, align_phases
 from signimit.policies.protocol import Array
 from signimit.strokes import Stroke
@@ -116,6 +117,9 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
             one for p, a in zip(paths, alignments, strict=True) for one in cut_passes(p, a.phases, len(nodes))
         ]
         mean = _shared_part(mean_pass(passes), 0.0 if closed else 0.5 * len(paths))
+    if closed:
+        kept = without_overshoot(mean.points, scale)
+        mean = MeanPass(*(values[kept] for values in mean))
     return Course(mean.points, mean.durations, closed, scale, _reach_speed(paths, alignments))
 
 

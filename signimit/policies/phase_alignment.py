@@ -1,9 +1,9 @@
 """Where in a movement each point of a demonstration is: dynamic programming over phases.
 
-A course is a polyline of M nodes, closed (the movement repeats) or open (it ends at a goal). A demonstration is read as a
-*reach* that follows no course, then a *drawing* whose phase moves along the nodes, round and round if the course is
-closed; a closed drawing may also be left again. The cheapest reading is found exactly, as a hidden Markov model's
-best path would be (Viterbi); with one pass it is dynamic time warping with a free beginning.
+A course is a polyline of M nodes, closed (the movement repeats) or open (it ends at a goal). A demonstration is
+read as a *reach* that follows no course, then a *drawing* whose phase moves along the nodes, round and round if the
+course is closed; a closed drawing may also be left again. The cheapest reading is found exactly, as a
+hidden Markov model's best path would be (Viterbi); with one pass it is dynamic time warping with a free beginning.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.distance import cdist
 
 from signimit.policies.arclength import unit_tangents
 from signimit.policies.protocol import Array
@@ -44,9 +45,8 @@ def align_phases(paths: Sequence[Array], course: Array, closed: bool, scale: flo
         closed: Whether the last node is followed by the first.
         scale: Half size of the movement, m: the unit of a gap.
     """
-    local = _local_costs(paths, course, closed, scale)
-    costs, moves = _accumulate(local, closed)
-    return [_trace(costs[:, d], moves[:, d], len(path), closed) for d, path in enumerate(paths)]
+    costs = _accumulate(_local_costs(paths, course, closed, scale), closed)
+    return [_trace(costs[:, d], len(path), closed) for d, path in enumerate(paths)]
 
 
 def _local_costs(paths: Sequence[Array], course: Array, closed: bool, scale: float) -> Array:
@@ -54,42 +54,41 @@ def _local_costs(paths: Sequence[Array], course: Array, closed: bool, scale: flo
     local = np.zeros((max(map(len, paths)), len(paths), len(course)))
     tangents = unit_tangents(course, closed)
     for d, path in enumerate(paths):
-        gaps = np.sqrt(((path[:, None] - course) ** 2).sum(axis=-1)) / scale
+        gaps = cdist(path, course) / scale
         turned = 1.0 - unit_tangents(path, closed=False) @ tangents.T
         local[: len(path), d] = np.minimum(gaps, FARTHEST_GAP) + DIRECTION_WEIGHT * turned
     return local
 
 
-def _accumulate(local: Array, closed: bool) -> tuple[Array, NDArray[np.int8]]:
-    """Return cheapest sums up to each point and node, and the move that led there (-1: the drawing begins)."""
-    advances = np.arange(len(ADVANCE_COSTS))[:, None]
-    before = np.arange(local.shape[2]) - advances  # (K, M)
+def _accumulate(local: Array, closed: bool) -> Array:
+    """Return the cheapest sum up to each point of each path at each node, shape (n, D, M)."""
+    before = np.arange(local.shape[2]) - np.arange(len(ADVANCE_COSTS))[:, None]  # (K, M)
     charge = np.array(ADVANCE_COSTS)[:, None] + (0.0 if closed else np.where(before < 0, np.inf, 0.0))
-    costs, moves = np.empty_like(local), np.full(local.shape, -1, dtype=np.int8)
-    costs[0] = local[0]
+    costs = local.copy()
     for t in range(1, len(local)):
-        options = costs[t - 1][:, before] + charge  # (D, K, M); negative nodes wrap round
-        best = options.argmin(axis=1)
-        cheapest = np.take_along_axis(options, best[:, None], axis=1)[:, 0]
-        begins = cheapest > REACH_COST * t
-        moves[t] = np.where(begins, -1, best)
-        costs[t] = np.where(begins, REACH_COST * t, cheapest) + local[t]
-    return costs, moves
+        options = np.take(costs[t - 1], before, axis=1, mode="wrap")  # (D, K, M)
+        options += charge
+        costs[t] += np.minimum(options.min(axis=1), REACH_COST * t)
+    return costs
 
 
-def _trace(costs: Array, moves: NDArray[np.int8], length: int, closed: bool) -> PhaseAlignment:
+def _trace(costs: Array, length: int, closed: bool) -> PhaseAlignment:
     """Walk back from the cheapest end of one path; an open course is followed to the path's last point."""
-    nodes = costs.shape[1]
-    leaving = REACH_COST * np.arange(length - 1, -1, -1.0)
-    ends = costs[:length].min(axis=1) + leaving
+    ends = costs[:length].min(axis=1) + REACH_COST * np.arange(length - 1, -1, -1.0)
     last = int(ends.argmin()) if closed else length - 1
-    t, phase = last, int(costs[last].argmin())
+    t, phase, nodes = last, int(costs[last].argmin()), costs.shape[1]
     phases = np.full(length, -1, dtype=np.int64)
-    while True:
-        phases[t] = phase
-        move = int(moves[t, phase % nodes])
-        if move < 0:
+    phases[t] = phase
+    while t > 0:
+        row, reach = costs[t - 1], REACH_COST * t
+        options = [
+            row[(phase - k) % nodes] + charge if closed or phase >= k else np.inf
+            for k, charge in enumerate(ADVANCE_COSTS)
+        ]
+        cheapest = min(options)
+        if cheapest > reach:
             break
-        phase, t = phase - move, t - 1
+        t, phase = t - 1, phase - options.index(cheapest)
+        phases[t] = phase
     phases[t : last + 1] -= phase - phase % nodes
     return PhaseAlignment(phases, float(ends[last]))
