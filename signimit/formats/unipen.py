@@ -18,7 +18,7 @@ from signimit.formats.recording import Recording, library_from_recordings
 from signimit.formats.textfile import read_text
 from signimit.strokes import StrokeLibrary
 
-_SEGMENT = re.compile(r'\.SEGMENT\s+\S+\s+(?P<first>\d+)(?:-(?P<last>\d+))?\s+\S+\s+"(?P<label>[^"]*)"\s*$')
+_SEGMENT = re.compile(r'\.SEGMENT\s+\S+\s+(?P<first>\d{1,9})(?:-(?P<last>\d{1,9}))?\s+\S+\s+"(?P<label>[^"]*)"\s*$')
 _COMMENT = re.compile(r"\.COMMENT\s+\S+\s+(?P<writer>\d+)\s+\d+\s*$")
 _WRITER = re.compile(r"\.WRITER_ID\s+(?P<writer>\S+)\s*$")
 
@@ -67,6 +67,8 @@ def _segments(text: str, where: str) -> Iterator[_Segment]:
     for number, line in enumerate(text.splitlines(), 1):
         place = f"{where}: line {number}"
         if line.startswith(".SEGMENT"):
+            if down:
+                raise FileFormatError(place, ".PEN_UP before the next .SEGMENT", "none")
             if segment is not None:
                 yield segment
             segment = _read_segment(line, number, place, writer)

@@ -71,6 +71,8 @@ def test_a_writer_id_names_the_writer_where_there_is_no_comment(tmp_path: Path) 
         ("112-113", "112-114", r"line 15: expected 3 pen-down pieces of '7', found 2"),
         ('.SEGMENT DIGIT   30 ? "6"\n', "", r"line 7: expected .SEGMENT before the first .PEN_DOWN, found none"),
         (" 240  329\n.PEN_UP\n", " 240  329\n.PEN_DOWN\n", r"line 12: expected .PEN_UP before the next .PEN_DOWN"),
+        (" 240  329\n.PEN_UP\n", " 240  329\n", r"line 14: expected .PEN_UP before the next .SEGMENT, found none"),
+        ("112-113", "112-" + "1" * 5000, r"line 15: expected .SEGMENT level"),
         (" 238  326\n 239  328\n 240  329\n", "", r"line 6: points: expected at least 2, found none"),
         (" 20 20\n.PEN_UP\n.DT 100\n", " 20 20\n", r".PEN_UP after the last .PEN_DOWN, found the end"),
     ],
