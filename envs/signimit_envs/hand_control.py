@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from signimit_envs.scene import MAX_JOINT_SPEED, home_posture
 
 _SOLVER = "daqp"
-_POSTURE_COST = 1e-3  # settles what the hand leaves open; at 1e-2 it would bend the direction of motion
+_POSTURE_COST = 1e-4  # settles what the hand leaves open; more would make a resting hand creep, 1e-2 bend its way
 
 
 class JointCommand(NamedTuple):

@@ -62,6 +62,9 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         self._hand_site = self.model.site("hand").id
         self._jacobian = np.zeros((3, self.model.nv))
         self._planar_jacobian = self._jacobian[:2]
+        # Live views: to fetch them from the data in every control step would cost more than to read them.
+        self._qpos, self._qvel, self._ctrl = self.data.qpos, self.data.qvel, self.data.ctrl
+        self._hand = self.data.site_xpos[self._hand_site, :2]
         self._ranges = self.model.jnt_range.tolist()
         self._warnings = self.data.warning.number  # a live view; mj_resetData clears it
         self._camera = camera
@@ -87,7 +90,7 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
             raise InvalidInputError("reset option hand", "a position within the arm's reach", f"{start.hand}")
         self._situation = start
         self._quiet_log = QuietLog()
-        self._place(start, joints)
+        self._place(start, joints.tolist())
         self._judge.start(start.request, start.objects, start.hand)
         if self.render_mode == "human":
             self.render()
@@ -103,10 +106,9 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
             InvalidInputError: If the action has another shape or is not finite.
         """
         command = self._command(self._checked(action))
-        before = self.data.qpos.copy()
         error = self._simulate(command.velocities)
         if error:
-            self._place(self._situation, before)
+            self._place(self._situation, self._last_joints)
         observation = self._observation()
         reward = float(not error and self._judge.watch(observation["hand"]))
         if self.render_mode == "human":
@@ -155,37 +157,38 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
 
     def _simulate(self, velocities: NDArray[np.float64]) -> str:
         """Track joint velocities for one control step, stopping at the joints' limits; return what went wrong."""
-        data = self.data
-        data.ctrl[:] = [
+        self._ctrl[:] = [
             min(max(velocity, (low - joint) * CONTROL_RATE), (high - joint) * CONTROL_RATE)
-            for velocity, joint, (low, high) in zip(velocities.tolist(), data.qpos.tolist(), self._ranges, strict=True)
+            for velocity, joint, (low, high) in zip(velocities.tolist(), self._qpos.tolist(), self._ranges, strict=True)
         ]
         with self._quiet_log:
-            mujoco.mj_step(self.model, data, SUBSTEPS)
+            mujoco.mj_step(self.model, self.data, SUBSTEPS)
         if any(self._warnings.tolist()):
             return "the physics blew up; the arm was put back where it was before this step"
         # What mj_step leaves behind was computed before its last integration.
-        mujoco.mj_kinematics(self.model, data)
-        mujoco.mj_comPos(self.model, data)
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_comPos(self.model, self.data)
+        self._last_joints = self._qpos.tolist()
         return ""
 
-    def _place(self, start: Situation, joints: NDArray[np.float64]) -> None:
+    def _place(self, start: Situation, joints: list[float]) -> None:
         """Put objects and a resting arm in their places."""
+        self._last_joints = joints
         mujoco.mj_resetData(self.model, self.data)
         self.data.qpos[:] = joints
         self.data.mocap_pos[self._bodies, :2] = start.objects
         mujoco.mj_forward(self.model, self.data)
 
     def _observation(self) -> Observation:
-        data = self.data
-        mujoco.mj_jacSite(self.model, data, self._jacobian, None, self._hand_site)
+        mujoco.mj_jacSite(self.model, self.data, self._jacobian, None, self._hand_site)
+        start = self._situation
         return {
-            "hand": data.site_xpos[self._hand_site, :2].copy(),
-            "hand_velocity": self._planar_jacobian.dot(data.qvel),
-            "joints": data.qpos.copy(),
-            "joint_velocities": data.qvel.copy(),
-            "objects": self._situation.objects.copy(),
-            "signs": self._situation.signs.copy(),
+            "hand": self._hand.copy(),
+            "hand_velocity": self._planar_jacobian.dot(self._qvel),
+            "joints": self._qpos.copy(),
+            "joint_velocities": self._qvel.copy(),
+            "objects": start.objects.copy(),
+            "signs": start.signs.copy(),
         }
 
     def _info(self, residual: float, error: str) -> dict[str, Any]:

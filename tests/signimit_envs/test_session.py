@@ -14,6 +14,7 @@ from signimit.evaluation import NOTHING
 from signimit.exceptions import InvalidInputError
 from signimit.frames import TablePolicy
 from signimit.inference import WordOrder
+from signimit.learning import learn
 from signimit_envs.casting import Cast, cast_people
 from signimit_envs.report import inference_lines, session_report, session_table, truth_text
 from signimit_envs.session import Command, SessionPlan, SessionResult, compose_session, run_session
@@ -28,7 +29,7 @@ from signimit_envs.verdicts import (
     same_partition,
 )
 
-PLAN = SessionPlan(seed=2, attempts=1, seconds=6.0)
+PLAN = SessionPlan(attempts=1, seconds=6.0)
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +39,14 @@ def cast() -> Cast:
 
 @pytest.fixture(scope="module")
 def result(cast: Cast) -> SessionResult:
-    return run_session(PLAN, cast)
+    """A session in which the imitator understands everything: not all are such, with the paper's method."""
+    for seed in range(50):
+        plan = replace(PLAN, seed=seed)
+        session = compose_session(plan, cast)
+        model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, seed)
+        if judge_inference(model, session.truth).all_right:
+            return run_session(plan, cast)
+    pytest.fail("in none of 50 sessions did the paper's method understand everything")
 
 
 def test_every_pair_is_asked_for_and_three_of_nine_were_never_shown(result: SessionResult) -> None:
@@ -59,8 +67,8 @@ def test_signs_of_commands_were_never_used_before(result: SessionResult) -> None
 
 def test_the_simulated_hand_starts_where_it_is_put_and_goes_on_for_as_long_as_planned(result: SessionResult) -> None:
     for reproduction in result.reproductions:
-        np.testing.assert_allclose(reproduction.path[0], reproduction.command.hand, atol=1e-3)
-        assert len(reproduction.path) == len(reproduction.joints) == PLAN.seconds * 50 + 1
+        np.testing.assert_allclose(reproduction.answer.path[0], reproduction.command.scene.hand, atol=1e-3)
+        assert len(reproduction.answer.path) == len(reproduction.answer.joints) == PLAN.seconds * 50 + 1
 
 
 def test_a_session_obeys_most_commands_when_its_inferences_are_right(result: SessionResult) -> None:
@@ -72,12 +80,12 @@ def test_the_same_seed_gives_the_same_session(cast: Cast) -> None:
     plan = replace(PLAN, seconds=1.0)
     first, second = run_session(plan, cast), run_session(plan, cast)
     for a, b in zip(first.reproductions, second.reproductions, strict=True):
-        assert a.path.tobytes() == b.path.tobytes()
+        assert a.answer.path.tobytes() == b.answer.path.tobytes()
     assert session_report(first, cast) == session_report(second, cast)
 
 
 def test_the_seed_changes_the_session(cast: Cast) -> None:
-    first, second = (compose_session(replace(PLAN, seed=s), cast).commands[0].hand for s in (0, 1))
+    first, second = (compose_session(replace(PLAN, seed=s), cast).commands[0].scene.hand for s in (0, 1))
     assert not np.array_equal(first, second)
 
 
@@ -120,7 +128,7 @@ def test_the_first_restart_is_the_sessions_own_grouping(result: SessionResult) -
 def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult) -> None:
     reproduction = result.reproductions[0]
     model, failed = result.model, reproduction._replace(performance=NOTHING)
-    understood = model.understanding
+    understood, answer = model.understanding, reproduction.answer
     labels, focus = np.zeros_like(model.labels), (model.focus + 1) % 3
     order = WordOrder(model.word_order.movement, model.word_order.focus)
 
@@ -132,7 +140,7 @@ def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult) -
     assert stage(labels=labels, focus=focus, word_order=order) == "grouping"
     assert stage(focus=focus, word_order=order) == "focus"
     assert stage(word_order=order) == "word order"
-    assert failing_stage(result, failed._replace(focus=(failed.focus + 1) % 3)) == "sign"
+    assert failing_stage(result, failed._replace(answer=answer._replace(focus=(answer.focus + 1) % 3))) == "sign"
     assert failing_stage(result, failed) == "physics"  # a point obeys, so that only the arm is left
 
 
@@ -149,8 +157,9 @@ def test_an_ideal_hand_integrates_the_policy() -> None:
 
 
 def test_the_report_is_json_and_says_what_the_table_says(result: SessionResult, cast: Cast) -> None:
+    seed = result.session.plan.seed
     report = json.loads(json.dumps(session_report(result, cast), allow_nan=False))
-    assert report["plan"] == {"method": "paper", "policy": PLAN.policy, "seed": 2, "attempts": 1, "seconds": 6.0}
+    assert report["plan"] == {"method": "paper", "policy": PLAN.policy, "seed": seed, "attempts": 1, "seconds": 6.0}
     obeyed = sum(entry["obeyed"] for entry in report["reproductions"])
     assert report["obeyed"]["all"]["count"] == obeyed
     assert f"obeyed, all: {obeyed} of 9" in session_table(result)
@@ -168,10 +177,10 @@ def test_the_truth_is_told_demonstration_by_demonstration(result: SessionResult)
 def test_a_study_adds_sessions_up_and_names_what_failed(result: SessionResult) -> None:
     outcome = session_outcome(result)
     failed = outcome._replace(
-        seed=7, obeyed={k: Share(0, v.total) for k, v in outcome.obeyed.items()}, stages=("sign",) * 9
+        seed=99, obeyed={k: Share(0, v.total) for k, v in outcome.obeyed.items()}, stages=("sign",) * 9
     )
     table = study_table([outcome, failed])
-    assert "not obeyed because of sign: 9, in sessions 7 (9)" in table
+    assert "not obeyed because of sign: 9, in sessions 99 (9)" in table
     report = study_report([outcome, failed], "paper", "knn")
     assert report["shares"]["obeyed"]["total"] == 18
-    assert [s["seed"] for s in report["sessions"]] == [2, 7]
+    assert [s["seed"] for s in report["sessions"]] == [result.session.plan.seed, 99]
