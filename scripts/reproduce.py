@@ -12,8 +12,12 @@ from signimit.command_line import run_program
 from signimit.output import whole_files
 from signimit.policies import DEFAULT_POLICY
 from signimit_envs.casting import Source, cast_people
+from signimit_envs.exceptions import RenderingError
+from signimit_envs.films import film_grid, film_story
 from signimit_envs.report import inference_lines, session_report, session_table
-from signimit_envs.session import SessionPlan, run_session
+from signimit_envs.session import SessionPlan, SessionResult, run_session
+from signimit_envs.storyboard import FRAME_RATE
+from signimit_envs.video import write_video
 
 
 def main(
@@ -61,7 +65,21 @@ def main(
         text = json.dumps(session_report(result, cast), indent=1, allow_nan=False)
         (folder / "results.json").write_text(text + "\n", encoding="utf-8")
         write_figures(result, folder)
+        if video:
+            write_videos(result, folder)
     print(f"Results are in {out}.")
+
+
+def write_videos(result: SessionResult, folder: Path) -> None:
+    """Write grid.mp4 and story.mp4; say so and go on where there is no OpenGL."""
+    from tqdm import tqdm
+
+    try:
+        for name, film in (("grid", film_grid), ("story", film_story)):
+            frames = tqdm(film(result), f"filming {name}.mp4", unit="frame")
+            write_video(folder / f"{name}.mp4", frames, FRAME_RATE)
+    except RenderingError as error:
+        print(f"No videos. {error}")
 
 
 if __name__ == "__main__":

@@ -113,7 +113,7 @@ def _reproduction_entry(result: SessionResult, reproduction: Reproduction) -> di
         "path_error": _finite(performance.path_error),
         "coverage": performance.coverage,
         "turns": performance.turns,
-        "confidence": reproduction.confidence,
+        "confidence": reproduction.answer.confidence,
     }
 
 

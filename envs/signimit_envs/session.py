@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from signimit.composition import GroundTruth, compose_demonstrations, compose_prototypes, compose_utterance
 from signimit.decks import StrokeDeck
@@ -54,8 +54,19 @@ class SessionPlan:
             raise InvalidInputError("seed", "zero or more", f"{self.seed}")
         if self.attempts < 1:
             raise InvalidInputError("attempts", "at least 1", f"{self.attempts}")
-        if not 1.0 <= self.seconds <= 600.0:
-            raise InvalidInputError("seconds", "1 to 600", f"{self.seconds}")
+        _check_seconds(self.seconds)
+
+
+class Scene(NamedTuple):
+    """Where things are when the imitator begins.
+
+    Attributes:
+        objects: Object positions, shape (O, 2), m.
+        hand: Where its hand starts, shape (2,), m.
+    """
+
+    objects: NDArray[np.float64]
+    hand: NDArray[np.float64]
 
 
 class Command(NamedTuple):
@@ -64,40 +75,48 @@ class Command(NamedTuple):
     Attributes:
         request: What is asked for; the imitator is not told.
         signs: How, W strokes of shape (T_s, 2) that were not used before while unused ones were left.
-        objects: Where the objects are, shape (O, 2), m.
-        hand: Where the hand starts, shape (2,), m.
+        scene: Where objects and hand are.
         seen: Whether this request was among the demonstrations.
     """
 
     request: Request
     signs: tuple[NDArray[np.float64], ...]
-    objects: NDArray[np.float64]
-    hand: NDArray[np.float64]
+    scene: Scene
     seen: bool
 
 
 Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 
-class Reproduction(NamedTuple):
-    """How the imitator answered a command.
+class Answer(NamedTuple):
+    """What the imitator did when it was asked for something.
 
     Attributes:
-        command: The command.
         movement: Number of the movement that it understood, in its own numbering.
         focus: Number of the object that it understood.
         confidence: Its probability that both are right.
-        path: Where its hand was in every control step, shape (T, 2), m, table frame.
+        path: Where its hand was at the start and after every control step, shape (T, 2), m, table frame.
         joints: The arm's joint angles at the same times, shape (T, 3), rad.
-        performance: What that was.
     """
 
-    command: Command
     movement: int
     focus: int
     confidence: float
     path: NDArray[np.float64]
     joints: NDArray[np.float64]
+
+
+class Reproduction(NamedTuple):
+    """A command, and what became of it.
+
+    Attributes:
+        command: The command.
+        answer: What the imitator did.
+        performance: What that was.
+    """
+
+    command: Command
+    answer: Answer
     performance: Performance
 
     @property
@@ -154,8 +173,7 @@ def compose_session(plan: SessionPlan, cast: Cast) -> Session:
         Command(
             request,
             compose_utterance(language, signs, *request, rng),
-            sample_scene(rng, language.objects),
-            sample_hand(rng),
+            Scene(sample_scene(rng, language.objects), sample_hand(rng)),
             request not in language.held_back,
         )
         for request in language.requests
@@ -179,25 +197,34 @@ def run_session(plan: SessionPlan, cast: Cast, track: Track = iter) -> SessionRe
     model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
     env = TabletopHandEnv(objects=plan.language.objects)
     try:
-        reproductions = tuple(answer(command, model, session, env) for command in track(session.commands))
+        reproductions = tuple(obey(command, model, session, env) for command in track(session.commands))
     finally:
         env.close()
     return SessionResult(session, model, reproductions)
 
 
-def answer(command: Command, model: ImitationModel, session: Session, env: TabletopHandEnv) -> Reproduction:
+def obey(command: Command, model: ImitationModel, session: Session, env: TabletopHandEnv) -> Reproduction:
     """Let the imitator answer one command, and judge what its hand did by what the demonstrator's had done."""
-    response = model.respond(command.signs, command.objects)
+    seconds = session.plan.seconds
+    answer = answer_signs(model, command.signs, command.scene, seconds, env)
+    return Reproduction(command, answer, performed(answer.path, command.scene.objects, session.truth.templates))
+
+
+def answer_signs(
+    model: ImitationModel, signs: Sequence[ArrayLike], scene: Scene, seconds: float, env: TabletopHandEnv
+) -> Answer:
+    """Let the imitator answer signs with the simulated arm.
+
+    Raises:
+        InvalidInputError: If the signs, the scene or the duration cannot be used.
+    """
+    _check_seconds(seconds)
+    response = model.respond(signs, scene.objects)
     joints: list[NDArray[np.float64]] = []
-    path, _ = reproduce(
-        env,
-        response.policy,
-        command.objects,
-        command.hand,
-        session.plan.seconds,
-        each_step=lambda: joints.append(env.data.qpos.copy()),
-    )
-    performance = performed(path, command.objects, session.truth.templates)
-    return Reproduction(
-        command, response.movement, response.focus, response.confidence, path, np.array(joints), performance
-    )
+    track = reproduce(env, response.policy, *scene, seconds, each_step=lambda: joints.append(env.data.qpos.copy()))
+    return Answer(response.movement, response.focus, response.confidence, track.path, np.array(joints))
+
+
+def _check_seconds(seconds: float) -> None:
+    if not 1.0 <= seconds <= 600.0:  # a comparison with NaN is false
+        raise InvalidInputError("seconds", "1 to 600", f"{seconds}")

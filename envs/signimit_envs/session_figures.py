@@ -53,4 +53,4 @@ def by_request(result: SessionResult) -> dict[tuple[int, int], list[Reproduction
 def path_about_object(reproduction: Reproduction) -> NDArray[np.float64]:
     """Return the path of the hand in the frame of the object asked for, shape (T, 2), m."""
     command = reproduction.command
-    return np.asarray(reproduction.path - command.objects[command.request.focus])
+    return np.asarray(reproduction.answer.path - command.scene.objects[command.request.focus])

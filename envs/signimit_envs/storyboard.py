@@ -7,14 +7,14 @@ C: the interactant signs again, in a new scene. D: the robot answers.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from signimit.summary import object_name, ordinal
 from signimit_envs.scene import CONTROL_RATE
-from signimit_envs.session import Reproduction, SessionResult
+from signimit_envs.session import Answer, Reproduction, SessionResult
 
 FRAME_RATE = 25  # frames/s of a film
 STRIDE = CONTROL_RATE // FRAME_RATE  # control steps a frame
@@ -25,6 +25,8 @@ HASTE = 8  # how much faster all demonstrations but the first go by
 ANSWER_SECONDS = 6.0
 PARKED = np.array([-2.2, 2.2, 1.9])  # rad, joint angles of an arm that only watches
 NOWHERE = np.zeros((0, 2))
+for _array in (PARKED, NOWHERE):
+    _array.setflags(write=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -47,10 +49,10 @@ class Shot:
     caption: str
     signs: tuple[NDArray[np.float64], ...] = ()
     boxes: tuple[NDArray[np.float64], ...] = ()
-    objects: NDArray[np.float64] = NOWHERE
-    joints: NDArray[np.float64] = PARKED
+    objects: NDArray[np.float64] = field(default_factory=lambda: NOWHERE)
+    joints: NDArray[np.float64] = field(default_factory=lambda: PARKED)
     human_hand: NDArray[np.float64] | None = None
-    trail: NDArray[np.float64] = NOWHERE
+    trail: NDArray[np.float64] = field(default_factory=lambda: NOWHERE)
     card: tuple[str, ...] = ()
 
 
@@ -68,7 +70,7 @@ def tell_story(result: SessionResult) -> Iterator[Shot]:
         request = reproduction.command.request
         if not reproduction.command.seen and request not in asked:
             asked.add(request)
-            yield from show_answer(result, reproduction)
+            yield from show_reproduction(result, reproduction)
 
 
 def show_demonstration(result: SessionResult, number: int, haste: int) -> Iterator[Shot]:
@@ -107,25 +109,29 @@ def show_card(result: SessionResult) -> Iterator[Shot]:
     yield from [Shot(phase="", caption="After the demonstrations", card=lines)] * CARD_FRAMES
 
 
-def show_answer(result: SessionResult, reproduction: Reproduction) -> Iterator[Shot]:
-    """Show a pair of signs being made to the robot (C), and what it does (D)."""
+def show_reproduction(result: SessionResult, reproduction: Reproduction) -> Iterator[Shot]:
+    """Show a command being given to the robot (C), and what it does (D)."""
     command, language = reproduction.command, result.session.plan.language
     shown = "shown in a demonstration" if command.seen else "never shown in any demonstration"
-    scene = Shot(
-        phase="C", caption=f"New scene, a pair of signs {shown}", objects=command.objects, joints=reproduction.joints[0]
-    )
-    yield from _signing(scene, command.signs, 1)
-    asked = f"{language.movements[command.request.movement]} about {object_name(command.request.focus)}"
-    scene = replace(
-        scene,
-        phase="D",
-        caption=f"The robot answers (asked for: {asked})",
-        signs=command.signs,
-        boxes=command.signs,
-    )
-    steps = min(len(reproduction.path), round(ANSWER_SECONDS * CONTROL_RATE))
-    for end in _ends(steps, STRIDE):
-        yield replace(scene, joints=reproduction.joints[end - 1], trail=reproduction.path[:end])
+    asked = f"{language.movements[command.request.movement]}, {object_name(command.request.focus)}"
+    verdict = "obeyed" if reproduction.obeyed else "not obeyed"
+    captions = f"New scene, a pair of signs {shown}", f"The robot answers. Asked for: {asked}"
+    end = round(ANSWER_SECONDS * CONTROL_RATE) + 1
+    answer = reproduction.answer._replace(path=reproduction.answer.path[:end], joints=reproduction.answer.joints[:end])
+    shots = list(show_answer(command.signs, command.scene.objects, answer, captions))
+    yield from shots
+    yield from [replace(shots[-1], caption=f"{captions[1]}: {verdict}")] * FRAME_RATE
+
+
+def show_answer(
+    signs: Sequence[NDArray[np.float64]], objects: NDArray[np.float64], answer: Answer, captions: tuple[str, str]
+) -> Iterator[Shot]:
+    """Show signs being made to the robot (C), and what it does (D), each with its caption."""
+    scene = Shot(phase="C", caption=captions[0], objects=objects, joints=answer.joints[0])
+    yield from _signing(scene, signs, 1)
+    scene = replace(scene, phase="D", caption=captions[1], signs=tuple(signs), boxes=tuple(signs))
+    for end in _ends(len(answer.path), STRIDE):
+        yield replace(scene, joints=answer.joints[end - 1], trail=answer.path[:end])
 
 
 def _signing(scene: Shot, signs: Sequence[NDArray[np.float64]], haste: int) -> Iterator[Shot]:

@@ -138,12 +138,12 @@ def failing_stage(result: SessionResult, reproduction: Reproduction) -> str:
     for stage, right in zip(STAGES, verdict[:3], strict=False):
         if not right:
             return stage
-    meant = session.truth.movement[int(np.flatnonzero(model.labels == reproduction.movement)[0])]
-    if (int(meant), reproduction.focus) != command.request:
+    meant = session.truth.movement[int(np.flatnonzero(model.labels == reproduction.answer.movement)[0])]
+    if (int(meant), reproduction.answer.focus) != command.request:
         return "sign"
-    policy = model.respond(command.signs, command.objects).policy
-    path = ideal_path(policy, command.hand, session.plan.seconds)
-    ideal = performed(path, command.objects, session.truth.templates)
+    policy = model.respond(command.signs, command.scene.objects).policy
+    path = ideal_path(policy, command.scene.hand, session.plan.seconds)
+    ideal = performed(path, command.scene.objects, session.truth.templates)
     return "physics" if (ideal.movement, ideal.focus) == command.request else "policy"
 
 
