@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,7 @@ from signimit.strokes import Stroke, StrokeLibrary
 HALF_SIZE = (0.09, 0.12)  # m, half the larger side of a drawn movement
 LOOPS = 2  # how often a demonstrator draws the movement
 Strokes = StrokeLibrary | StrokeDeck
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,13 +38,21 @@ class GroundTruth:
         language: The language that was spoken.
         movement: Index of the movement, shape (N,); read-only.
         focus: Index of the object, shape (N,); read-only.
-        templates: For each movement the loops that were demonstrated, each (T, 2), m, object's frame.
+        templates: For each movement the loops that were demonstrated, each (T, 2), m, object's frame;
+            read-only.
     """
 
     language: Language
     movement: NDArray[np.int64]
     focus: NDArray[np.int64]
     templates: tuple[tuple[NDArray[np.float64], ...], ...]
+
+    def __post_init__(self) -> None:
+        """Copy and make read-only."""
+        object.__setattr__(self, "movement", _read_only(self.movement))
+        object.__setattr__(self, "focus", _read_only(self.focus))
+        templates = tuple(tuple(_read_only(drawing) for drawing in drawings) for drawings in self.templates)
+        object.__setattr__(self, "templates", templates)
 
     @property
     def movement_names(self) -> tuple[str, ...]:
@@ -88,9 +98,7 @@ def compose_demonstrations(
         templates[movement] += loops
         hand = compose_path(sample_hand(rng), [loop + objects[focus] for loop in loops])
         demonstrations.append(Demonstration(utterance, objects, hand, sample_times(len(hand))))
-    movement_of, focus_of = np.array(requests, dtype=np.int64).T.copy()
-    movement_of.setflags(write=False)
-    focus_of.setflags(write=False)
+    movement_of, focus_of = np.array(requests, dtype=np.int64).T
     truth = GroundTruth(language, movement_of, focus_of, tuple(tuple(t) for t in templates))
     return DemonstrationSet(demonstrations), truth
 
@@ -162,3 +170,9 @@ def compose_prototypes(language: Language, signs: Strokes, rng: np.random.Genera
     """Let the interactant draw the language's prototype signs once."""
     deck = as_deck(signs)
     return tuple(deck.deal(label, rng)[0] for label in language.prototypes)
+
+
+def _read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:
+    copy = array.copy()
+    copy.setflags(write=False)
+    return copy

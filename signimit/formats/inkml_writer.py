@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import re
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from signimit.atomic import replaced_file
+from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke, StrokeLibrary
 
+_NO_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _CHANNELS = (
     {"name": "X", "type": "decimal"},
     {"name": "Y", "type": "decimal", "orientation": "-ve"},
@@ -19,6 +22,9 @@ def write_inkml(path: str | os.PathLike[str], library: StrokeLibrary) -> None:
     """Write a library, whole or not at all: one trace group for each stroke, with its label and writer.
 
     Numbers are written so that `read_inkml` gives the same library back to the last bit, times from 0.
+
+    Raises:
+        InvalidInputError: If a label or writer has characters that XML cannot hold.
     """
     ink = Element("ink", {"xmlns": "http://www.w3.org/2003/InkML"})
     channels = SubElement(ink, "traceFormat")
@@ -36,6 +42,8 @@ def write_inkml(path: str | os.PathLike[str], library: StrokeLibrary) -> None:
 
 
 def _annotate(element: Element, kind: str, text: str) -> None:
+    if found := _NO_XML.search(text):
+        raise InvalidInputError(kind, "characters that XML can hold", repr(found[0]))
     SubElement(element, "annotation", {"type": kind}).text = text
 
 

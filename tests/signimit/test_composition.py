@@ -120,7 +120,7 @@ def test_labels_and_truth_cannot_be_reached_from_the_demonstrations(
 
 
 def test_truth_cannot_be_written(session: tuple[DemonstrationSet, GroundTruth]) -> None:
-    for array in (session[1].movement, session[1].focus):
+    for array in (session[1].movement, session[1].focus, session[1].templates[0][0]):
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
-from signimit import FileFormatError, Stroke, StrokeLibrary
+from signimit import FileFormatError, InvalidInputError, Stroke, StrokeLibrary
 from signimit.formats import read_inkml, write_inkml
 from signimit.people import synthetic_library
 
@@ -154,6 +154,14 @@ def test_any_name_and_number_comes_back(
     again = read_inkml(path)
     assert (again.labels, again.writers) == ((label.strip(),), (writer.strip(),))
     assert_array_equal(again[0].points, stroke.points)
+
+
+@pytest.mark.parametrize("label", ["a\x00b", "bell\x07", "half \ud800"])
+def test_labels_that_xml_cannot_hold_are_refused(tmp_path: Path, label: str) -> None:
+    stroke = Stroke(np.array([(0.0, 1.0), (1.5, 2.0)]), np.array([0, 0.25]))
+    with pytest.raises(InvalidInputError, match="label: expected characters that XML can hold, found"):
+        write_inkml(tmp_path / "one.inkml", StrokeLibrary((stroke,), (label,), ("ann",)))
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_nothing_is_left_when_writing_fails(tmp_path: Path) -> None:
