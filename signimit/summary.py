@@ -32,10 +32,12 @@ def summarise(understanding: Understanding, objects: int) -> str:
     """
     labels, focus, order, _ = understanding
     count = int(labels.max()) + 1
-    lines = [f"{len(labels)} demonstrations show {count} movement{'s' * (count != 1)}."]
+    shown = "1 demonstration shows" if len(labels) == 1 else f"{len(labels)} demonstrations show"
+    lines = [f"{shown} {count} movement{'s' * (count != 1)}."]
     for m in range(count):
-        members = ", ".join(f"{t} (about {object_name(int(focus[t]))})" for t in np.flatnonzero(labels == m))
-        lines.append(f"  Movement {m}: demonstrations {members}.")
+        numbers = np.flatnonzero(labels == m).tolist()
+        members = ", ".join(f"{t} (about {object_name(int(focus[t]))})" for t in numbers)
+        lines.append(f"  Movement {m}: {_noun(numbers)} {members}.")
     lines.append(
         f"The {ordinal(order.focus)} word names the object, the {ordinal(order.movement)} word names the movement."
     )
@@ -49,4 +51,8 @@ def summarise(understanding: Understanding, objects: int) -> str:
 def _meaning(word: int, meaning: str, members: list[int]) -> str:
     if not members:
         return f"  No sign was seen for {meaning}."
-    return f"  Signs like the {ordinal(word)} of demonstrations {', '.join(map(str, members))} mean {meaning}."
+    return f"  Signs like the {ordinal(word)} of {_noun(members)} {', '.join(map(str, members))} mean {meaning}."
+
+
+def _noun(members: list[int]) -> str:
+    return "demonstration" if len(members) == 1 else "demonstrations"
