@@ -5,6 +5,9 @@ kind           what                                                             
 ============== ====================================================================================== =========
 path-following the course that the demonstrations share, followed at their speed; the default         phase
 knn            mean output of the 50 nearest demonstrated points, the paper's                         none
+ilo-gmr        a mixture of Gaussians fitted to the nearest points at every call (Cederborg et al. 2010)       none
+gmr            Gaussian mixture regression, components chosen by BIC                                          none
+dmp            dynamic movement primitives: discrete reach, rhythmic part (Ijspeert et al. 2013)              phase, v
 ============== ====================================================================================== =========
 """
 
@@ -16,6 +19,9 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 
 from signimit.exceptions import FileFormatError, UnknownNameError
+from signimit.policies.dmp import DMPPolicy as DMPPolicy
+from signimit.policies.gmr import GMRPolicy as GMRPolicy
+from signimit.policies.ilo_gmr import ILOGMRPolicy as ILOGMRPolicy
 from signimit.policies.knn import KNearestPolicy as KNearestPolicy
 from signimit.policies.path_following import PathFollowingPolicy as PathFollowingPolicy
 from signimit.policies.protocol import CONTROL_PERIOD as CONTROL_PERIOD
@@ -24,7 +30,9 @@ from signimit.policies.protocol import StatefulPolicy as StatefulPolicy
 from signimit.policies.protocol import check_demonstrations
 from signimit.policies.storage import read_policy_arrays
 
-_CLASSES = {cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy)}
+_CLASSES = {
+    cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy, ILOGMRPolicy, GMRPolicy, DMPPolicy)
+}
 POLICY_KINDS = tuple(_CLASSES)
 DEFAULT_POLICY = PathFollowingPolicy.kind
 

@@ -1,4 +1,4 @@
-"""Overshoots: a stroke that runs past its own beginning, comes back and goes on. Nobody means them; they are cut out."""
+"""Overshoots: a stroke runs past its own beginning, comes back and goes on. Nobody means them; they are cut out."""
 
 from __future__ import annotations
 

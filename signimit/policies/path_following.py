@@ -16,26 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.arclength import interpolate
-from signimit.policies.course import Course, learn_course
+from signimit.policies.course import learn_course
 from signimit.policies.protocol import CONTROL_PERIOD, Array, check_hand, frozen
 from signimit.policies.storage import StoredPolicy
+from signimit.policies.timing import time_course
 from signimit.strokes import Stroke
 
 PULL = 15.0  # 1/s
-# in half sizes, distance from the expected place: closer, the hand is there; closer, the phase moves on; further, it is
-# looked for everywhere
-SURE, NEAR, LOST = 0.05, 0.2, 0.4
-LOOK_AROUND = (
-    4  # nodes about the expected one among which the phase of a hand between sure and lost is sought
-)
-SLOWEST, FASTEST = (
-    0.1,
-    2.0,
-)  # of the mean speed, m/s: a pause is shortened to the one, a glitch slowed to the other
-CORNER_ALLOWANCE = (
-    1.04  # a mean of corners that do not quite meet, sampled, lies inside them: of half the size
-)
+SURE = 0.05  # half sizes; a hand so close to the expected place is taken to be there
+NEAR = 0.2  # half sizes; closer, the phase moves on and the demonstrators' velocity counts
+LOST = 0.4  # half sizes; further, the phase is looked for everywhere
+LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
 BLOCK = 512  # hands at once: their table of gaps stays in the cache
 
 
@@ -194,26 +185,3 @@ class PathFollowingPolicy(StoredPolicy):
 
 
 _OFFSETS = np.arange(-LOOK_AROUND, LOOK_AROUND + 1)
-
-
-def time_course(course: Course) -> Array:
-    """Lay a course out in time: positions one control period apart, at the mean speed shown at each place."""
-    line = np.concatenate([course.points, course.points[:1]]) if course.closed else course.points
-    steps = np.hypot(*np.diff(line, axis=0).T)
-    durations = _smooth(course.durations, course.closed)[: len(steps)]
-    mean = steps.sum() / max(durations.sum(), 1e-9)
-    durations = np.clip(durations, steps / FASTEST, steps / (SLOWEST * mean))
-    clock = np.concatenate([[0.0], np.cumsum(durations)])
-    count = max(round(clock[-1] / CONTROL_PERIOD), 2)
-    even = np.linspace(0.0, clock[-1], count + 1)
-    if not course.closed:
-        return interpolate(even, clock, line)
-    centre = (line.min(axis=0) + line.max(axis=0)) / 2
-    return centre + CORNER_ALLOWANCE * (interpolate(even[:-1], clock, line) - centre)
-
-
-def _smooth(durations: Array, closed: bool) -> Array:
-    """Average over five nodes: less is the grid's noise, more would blur the slowing at corners."""
-    padded = np.pad(durations, 2, mode="wrap" if closed else "edge")
-    smooth: Array = np.convolve(padded, np.full(5, 0.2), mode="valid")
-    return smooth

@@ -1,0 +1,164 @@
+"""Dynamic movement primitives: a discrete reach, then a rhythmic primitive; or one discrete primitive to a goal.
+
+Ijspeert, Nakanishi, Hoffmann, Pastor and Schaal 2013, doi:10.1162/NECO_a_00393. The hand is a critically damped spring
+to a goal plus a forcing term, learned by least squares, of a phase that the clock drives and the error slows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import ClassVar, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.exceptions import InvalidInputError
+from signimit.policies.course import learn_course
+from signimit.policies.gaussian_mixture import within_speed
+from signimit.policies.protocol import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.storage import StoredPolicy
+from signimit.policies.timing import time_course
+from signimit.strokes import Stroke
+
+BASES = 40
+FREQUENCY = 10.0  # rad/s of the spring; an error is forgotten within about 0.3 s
+DECAY = 3.0  # of the discrete primitive's gate over its duration
+ARRIVED = 0.15  # half sizes from the course at which the reach ends
+PATIENCE = 0.3  # half sizes of error that halve the phase's speed (phase stopping)
+RIDGE = 1e-6
+
+
+class PrimitiveState(NamedTuple):
+    """Where hands are in the primitive; None as long as no hand was seen.
+
+    Attributes:
+        phases: In units of the course, shape () or (B,).
+        velocity: Of the spring, shape (2,) or (B, 2), m/s.
+        drawing: Whether the reach is over, shape () or (B,).
+    """
+
+    phases: Array | None = None
+    velocity: Array | None = None
+    drawing: NDArray[np.bool_] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class DMPPolicy(StoredPolicy):
+    """Discrete reach to the nearest place of the course, then the rhythmic primitive; both are one spring.
+
+    A movement that ends at a goal has no reach: the discrete primitive starts wherever the hand is.
+
+    Attributes:
+        weights: Of the basis functions of the forcing term, shape (BASES, 2), m/s².
+        course: What the primitive was learned from, one control period a node, shape (M, 2), m.
+        closed: Whether it is rhythmic (1) or discrete (0).
+        scale: Half size of the movement, m.
+        reach_speed: Greatest speed of the reach, m/s.
+    """
+
+    kind: ClassVar[str] = "dmp"
+    weights: Array
+    course: Array
+    closed: float
+    scale: float
+    reach_speed: float
+    _goal: Array = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check the shapes and set the goal: the middle of a rhythmic primitive, the end of a discrete one."""
+        super().__post_init__()
+        if self.weights.shape != (BASES, 2) or self.course.ndim != 2 or self.course.shape[1] != 2:
+            expected = f"weights ({BASES}, 2) and a course (M, 2)"
+            raise InvalidInputError("policy", expected, f"{self.weights.shape} and {self.course.shape}")
+        goal = self.course.mean(axis=0) if self.closed else self.course[-1]
+        object.__setattr__(self, "_goal", frozen(goal))
+
+    @classmethod
+    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+        """Find the shared course and fit the forcing term to it."""
+        course = learn_course(demonstrations)
+        nodes = time_course(course)
+        goal = nodes.mean(axis=0) if course.closed else nodes[-1]
+        ends = (nodes[-1:], nodes[:1]) if course.closed else (nodes[:1], nodes[-1:])
+        line = np.concatenate([ends[0], nodes, ends[1]])
+        velocity = np.diff(line, axis=0)[:-1] / CONTROL_PERIOD
+        acceleration = np.diff(line, n=2, axis=0) / CONTROL_PERIOD**2
+        wanted = acceleration - FREQUENCY**2 * (goal - nodes) + 2 * FREQUENCY * velocity
+        bases = _bases(np.arange(len(nodes)) / len(nodes), course.closed)
+        weights = np.linalg.solve(bases.T @ bases + RIDGE * np.eye(BASES), bases.T @ wanted)
+        return cls(weights, nodes, float(course.closed), course.scale, course.reach_speed)
+
+    def start(self) -> PrimitiveState:
+        """Return the state of hands not seen yet."""
+        return PrimitiveState()
+
+    def step(self, state: PrimitiveState, hand: ArrayLike) -> tuple[PrimitiveState, Array]:
+        """Return the next state and velocities, shape of ``hand``, m/s, for the next control period."""
+        hands = check_hand(hand)
+        flat = hands.reshape(-1, 2)
+        phases, velocity, drawing = self._unpacked(state, hands)
+        here = self._place(phases)
+        gap = here - flat
+        distance = np.sqrt((gap**2).sum(axis=1))
+        drawing = drawing | (distance < ARRIVED * self.scale)
+        force = _bases(phases, bool(self.closed)) @ self.weights
+        target = np.where(drawing[:, None], self._goal - flat, gap)
+        pushed = FREQUENCY**2 * target - 2 * FREQUENCY * velocity + force * drawing[:, None]
+        velocity = velocity + CONTROL_PERIOD * pushed
+        velocity = np.where(drawing[:, None], velocity, within_speed(velocity, self.reach_speed))
+        pace = drawing / (1.0 + (distance / (PATIENCE * self.scale)) ** 2) / len(self.course)
+        onward = (phases + pace) % 1.0 if self.closed else np.minimum(phases + 1.0 / len(self.course), 1.0)
+        shape = hands.shape[:-1]
+        state = PrimitiveState(onward.reshape(shape), velocity.reshape(hands.shape), drawing.reshape(shape))
+        return state, velocity.reshape(hands.shape).copy()
+
+    def __call__(self, hand: ArrayLike) -> Array:
+        """Return velocities, shape of ``hand``, m/s, from the nearest place of the course, whatever was before."""
+        hands = check_hand(hand)
+        flat = hands.reshape(-1, 2)
+        phases = self._nearest(flat)
+        onward = (
+            (phases + 1.0 / len(self.course)) % 1.0
+            if self.closed
+            else np.minimum(phases + 1.0 / len(self.course), 1.0)
+        )
+        ahead = (self._place(onward) - self._place(phases)) / CONTROL_PERIOD
+        velocity: Array = ahead + within_speed(FREQUENCY * (self._place(phases) - flat), self.reach_speed)
+        return velocity.reshape(hands.shape)
+
+    def _unpacked(self, state: PrimitiveState, hands: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Return phases (B,), velocities (B, 2) and whether drawing (B,); of new hands at the nearest place."""
+        if state.phases is None or state.velocity is None or state.drawing is None:
+            count = hands.size // 2
+            new = self._nearest(hands.reshape(-1, 2)) if self.closed else np.zeros(count)
+            return new, np.zeros((count, 2)), np.full(count, not self.closed)
+        if state.velocity.shape != hands.shape:
+            raise InvalidInputError(
+                "hand", f"hands of the state's shape {state.velocity.shape}", f"{hands.shape}"
+            )
+        return state.phases.reshape(-1), state.velocity.reshape(-1, 2), state.drawing.reshape(-1)
+
+    def _nearest(self, hands: Array) -> Array:
+        squares = (self.course**2).sum(axis=1) / 2 - hands @ self.course.T
+        phases: Array = squares.argmin(axis=1) / len(self.course)
+        return phases
+
+    def _place(self, phases: Array) -> Array:
+        nodes = np.rint(phases * len(self.course)).astype(np.int64)
+        return self.course[
+            nodes % len(self.course) if self.closed else np.minimum(nodes, len(self.course) - 1)
+        ]
+
+
+def _bases(phases: Array, closed: bool) -> Array:
+    """Return normalised basis functions, shape (B, BASES): von Mises on a circle, or Gaussian behind a closing gate."""
+    if closed:
+        angles = 2 * np.pi * (phases[:, None] - np.arange(BASES) / BASES)
+        raw = np.exp(BASES**2 / 20 * (np.cos(angles) - 1.0))
+        gate = np.ones(len(phases))
+    else:
+        raw = np.exp(-0.5 * ((phases[:, None] - np.linspace(0, 1, BASES)) * BASES) ** 2)
+        gate = np.where(phases < 1.0, np.exp(-DECAY * phases), 0.0)
+    bases: Array = gate[:, None] * raw / raw.sum(axis=1, keepdims=True)
+    return bases

@@ -1,0 +1,89 @@
+"""Gaussian mixture regression, the number of components chosen by BIC (the paper's [12] and [15]).
+
+Calinon, Guenter and Billard 2007, doi:10.1109/TSMCB.2006.886952; written here on numpy and scipy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.cluster.vq import kmeans2
+
+from signimit.exceptions import InvalidInputError
+from signimit.policies.gaussian_mixture import (
+    Mixture,
+    bayesian_information,
+    fit_mixture,
+    regress,
+    within_speed,
+)
+from signimit.policies.protocol import Array, check_hand, demonstrated_velocities
+from signimit.policies.storage import StoredPolicy
+from signimit.strokes import Stroke
+
+COMPONENTS = (1, 2, 3, 4, 6, 8, 10, 12, 16)
+STEPS = 30  # of expectation maximisation
+MOST_POINTS = 800  # evenly taken from all demonstrations; enough for 16 components over four features
+SEED = 0  # of the first clusters: the same demonstrations give the same policy
+
+
+@dataclass(frozen=True, eq=False)
+class GMRPolicy(StoredPolicy):
+    """Expected velocity given the position, under a mixture over (position, velocity).
+
+    Attributes:
+        weights: Priors, shape (K,).
+        means: Over (x, y, vx, vy), shape (K, 4), m and m/s.
+        covariances: Shape (K, 4, 4).
+        limit: Fastest demonstrated speed (99th percentile), m/s, never exceeded.
+    """
+
+    kind: ClassVar[str] = "gmr"
+    weights: Array
+    means: Array
+    covariances: Array
+    limit: float
+
+    def __post_init__(self) -> None:
+        """Check the shapes."""
+        super().__post_init__()
+        count = len(self.weights)
+        if self.means.shape != (count, 4) or self.covariances.shape != (count, 4, 4):
+            raise InvalidInputError("policy: means", f"shape ({count}, 4)", f"shape {self.means.shape}")
+
+    @classmethod
+    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+        """Fit mixtures of several sizes and keep the one with the least BIC."""
+        data = position_velocity(demonstrations)
+        limit = speed_limit(data)
+        data = data[:: max(1, -(-len(data) // MOST_POINTS))]
+        fits = [_fit(data, count) for count in COMPONENTS if 10 * count <= max(len(data), 10)]
+        best = min(fits, key=lambda mixture: bayesian_information(mixture, data))
+        return cls(best.weights, best.means, best.covariances, limit)
+
+    def __call__(self, hand: ArrayLike) -> Array:
+        """Return velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
+        hands = check_hand(hand)
+        mixture = Mixture(self.weights, self.means, self.covariances)
+        return within_speed(regress(mixture, hands.reshape(-1, 2)), self.limit).reshape(hands.shape)
+
+
+def position_velocity(demonstrations: Sequence[Stroke]) -> Array:
+    """Return all demonstrated positions and velocities, shape (n, 4), m and m/s."""
+    parts = [np.hstack([d.points, demonstrated_velocities(d)]) for d in demonstrations]
+    return np.concatenate(parts)
+
+
+def speed_limit(data: Array) -> float:
+    """Return the 99th percentile of the demonstrated speeds, m/s."""
+    return float(np.percentile(np.hypot(data[:, 2], data[:, 3]), 99)) + 1e-9
+
+
+def _fit(data: Array, count: int) -> Mixture:
+    spread = data.std(axis=0) + 1e-12
+    _, cluster = kmeans2(data / spread, count, minit="++", rng=np.random.default_rng(SEED), missing="warn")
+    return fit_mixture(data, np.eye(count)[cluster], STEPS)

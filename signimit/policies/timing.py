@@ -1,0 +1,37 @@
+"""A course laid out in time, at the speeds the demonstrators showed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from signimit.policies.arclength import interpolate
+from signimit.policies.course import Course
+from signimit.policies.protocol import CONTROL_PERIOD, Array
+
+SLOWEST = 0.1  # of the mean speed: a longer pause is shortened
+FASTEST = 2.0  # m/s: a glitch is slowed down
+CORNER_ALLOWANCE = 1.04  # times the size: a mean of corners that do not quite meet lies inside them
+
+
+def time_course(course: Course) -> Array:
+    """Lay a course out in time: positions one control period apart, at the mean speed shown at each place."""
+    line = np.concatenate([course.points, course.points[:1]]) if course.closed else course.points
+    steps = np.hypot(*np.diff(line, axis=0).T)
+    durations = _smooth(course.durations, course.closed)[: len(steps)]
+    mean = steps.sum() / max(durations.sum(), 1e-9)
+    durations = np.clip(durations, steps / FASTEST, steps / (SLOWEST * mean))
+    clock = np.concatenate([[0.0], np.cumsum(durations)])
+    count = max(round(clock[-1] / CONTROL_PERIOD), 2)
+    even = np.linspace(0.0, clock[-1], count + 1)
+    if not course.closed:
+        return interpolate(even, clock, line)
+    centre = (line.min(axis=0) + line.max(axis=0)) / 2
+    nodes: Array = centre + CORNER_ALLOWANCE * (interpolate(even[:-1], clock, line) - centre)
+    return nodes
+
+
+def _smooth(durations: Array, closed: bool) -> Array:
+    """Average over five nodes: less is the grid's noise, more would blur the slowing at corners."""
+    padded = np.pad(durations, 2, mode="wrap" if closed else "edge")
+    smooth: Array = np.convolve(padded, np.full(5, 0.2), mode="valid")
+    return smooth
