@@ -1,11 +1,17 @@
 """The simulated hand does in every control step what it was commanded, or says how much is missing."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
 import gymnasium as gym
 import mink
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-import signimit_envs  # noqa: F401
+from signimit_envs import TabletopEnv
 from signimit_envs.hand_control import HandController
 from signimit_envs.reproduction import reproduce
 from signimit_envs.scene import WORKSPACE, compile_scene, home_posture
@@ -13,12 +19,12 @@ from signimit_envs.scene import WORKSPACE, compile_scene, home_posture
 OBJECTS = [[0.0, 0.0], [0.2, 0.1], [-0.2, 0.1]]
 
 
-def circling(centre, radius, speed):
-    def policy(hand):
+def circling(centre: Any, radius: float, speed: float) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    def policy(hand: NDArray[np.float64]) -> NDArray[np.float64]:
         away = np.asarray(hand) - centre
         distance = np.hypot(*away)
         way = np.array([-away[1], away[0]]) / distance - 3 * (distance / radius - 1) * away / distance
-        return speed * way / np.hypot(*way)
+        return np.asarray(speed * way / np.hypot(*way))
 
     return policy
 
@@ -26,36 +32,36 @@ def circling(centre, radius, speed):
 class Triangle:
     """Goes round a triangle with sharp corners at constant speed; keeps the next corner as its state."""
 
-    def __init__(self, centre, radius, speed):
+    def __init__(self, centre: Any, radius: float, speed: float) -> None:
         self.corners = np.asarray(centre) + radius * np.array([[0, 1], [-0.9, -0.6], [0.9, -0.6]])
         self.speed = speed
 
-    def start(self):
+    def start(self) -> int:
         return 0
 
-    def step(self, state, hand):
+    def step(self, state: int, hand: NDArray[np.float64]) -> tuple[int, NDArray[np.float64]]:
         if np.hypot(*(self.corners[state] - hand)) < 0.012:
             state = (state + 1) % 3
         way = self.corners[state] - hand
         return state, self.speed * way / np.hypot(*way)
 
-    def __call__(self, hand):
+    def __call__(self, hand: NDArray[np.float64]) -> NDArray[np.float64]:
         raise AssertionError("a policy with a state is stepped")
 
 
 @pytest.fixture(scope="module")
-def env():
+def env() -> Any:
     env = gym.make("signimit/TabletopHand-v0")
     yield env
     env.close()
 
 
 @pytest.fixture(scope="module")
-def controller():
+def controller() -> HandController:
     return HandController(compile_scene())
 
 
-def test_the_hand_is_where_it_was_commanded_to_be(env):
+def test_the_hand_is_where_it_was_commanded_to_be(env: Any) -> None:
     """At 0.2 to 0.5 m/s, sharp corners too: RMS <= 2 mm, at most 6 mm, and 95 % of directions within 3 degrees."""
     gaps, angles = [], []
     for speed in (0.2, 0.35, 0.5):
@@ -71,7 +77,7 @@ def test_the_hand_is_where_it_was_commanded_to_be(env):
     assert max(np.percentile(a, 95) for a in angles) <= 3.0
 
 
-def test_a_resting_command_rests(env):
+def test_a_resting_command_rests(env: Any) -> None:
     env.reset(seed=0, options={"hand": [0.1, -0.2]})
     for _ in range(50):
         observation, *_ = env.step(np.zeros(2))
@@ -79,7 +85,7 @@ def test_a_resting_command_rests(env):
     np.testing.assert_allclose(observation["hand_velocity"], 0.0, atol=1e-5)
 
 
-def test_after_wild_commands_the_drives_come_to_rest_and_do_not_hunt(env):
+def test_after_wild_commands_the_drives_come_to_rest_and_do_not_hunt(env: Any) -> None:
     rng = np.random.default_rng(0)
     env.reset(seed=0)
     for _ in range(100):
@@ -90,7 +96,9 @@ def test_after_wild_commands_the_drives_come_to_rest_and_do_not_hunt(env):
 
 
 @pytest.mark.parametrize("direction", [(1, 1), (-1, 1), (1, -1), (-1, -1), (0, 1), (0, -1), (1, 0), (-1, 0)])
-def test_beyond_its_reach_the_hand_goes_as_far_as_it_can_and_says_so_and_comes_back(env, direction):
+def test_beyond_its_reach_the_hand_goes_as_far_as_it_can_and_says_so_and_comes_back(
+    env: Any, direction: tuple[int, int]
+) -> None:
     env.reset(seed=0, options={"hand": [0.0, 0.0]})
     residuals = []
     for _ in range(120):
@@ -105,14 +113,16 @@ def test_beyond_its_reach_the_hand_goes_as_far_as_it_can_and_says_so_and_comes_b
     assert (observation["hand"] - farthest) @ direction < -0.2
 
 
-def test_a_start_outside_the_joint_ranges_is_brought_inside(controller):
+def test_a_start_outside_the_joint_ranges_is_brought_inside(controller: HandController) -> None:
     command = controller.solve(np.array([5.0, -3.0, 9.0]), np.array([0.005, 0.0]), 0.02)
     assert np.isfinite(command.velocities).all()
     assert np.isfinite(command.residual)
 
 
-def test_when_the_solver_gives_up_the_arm_stays_and_the_whole_displacement_is_left(controller, monkeypatch):
-    def give_up(*_, **__):
+def test_when_the_solver_gives_up_the_arm_stays_and_the_whole_displacement_is_left(
+    controller: HandController, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def give_up(*_: Any, **__: Any) -> None:
         raise mink.NoSolutionFound("daqp")
 
     monkeypatch.setattr(mink, "solve_ik", give_up)
@@ -121,14 +131,14 @@ def test_when_the_solver_gives_up_the_arm_stays_and_the_whole_displacement_is_le
     assert residual == pytest.approx(0.005)
 
 
-def test_joint_velocities_stay_within_the_drives(controller):
+def test_joint_velocities_stay_within_the_drives(controller: HandController) -> None:
     for direction in ([1.0, 0.0], [0.0, 1.0], [-0.7, -0.7]):
         command = controller.solve(home_posture(compile_scene()), 0.3 * np.array(direction), 0.02)
         assert np.abs(command.velocities).max() <= 3.5 + 1e-6
         assert command.residual > 0.1
 
 
-def test_one_control_step_of_the_joints_turns_them_as_commanded():
+def test_one_control_step_of_the_joints_turns_them_as_commanded() -> None:
     env = gym.make("signimit/Tabletop-v0")
     before, _ = env.reset(seed=3)
     for _ in range(10):
@@ -138,17 +148,17 @@ def test_one_control_step_of_the_joints_turns_them_as_commanded():
     env.close()
 
 
-def test_joints_stop_at_their_limits():
-    env = gym.make("signimit/Tabletop-v0")
+def test_joints_stop_at_their_limits() -> None:
+    env = TabletopEnv()
     env.reset(seed=0)
     for sign in (1.0, -1.0):
         for _ in range(100):
             observation, _, terminated, _, _ = env.step(np.full(3, sign))
         assert not terminated
-        ranges = env.unwrapped.model.jnt_range[:, int(sign > 0)]
+        ranges = env.model.jnt_range[:, int(sign > 0)]
         np.testing.assert_allclose(observation["joints"], ranges, atol=0.02)
     env.close()
 
 
-def test_the_workspace_is_what_is_promised():
+def test_the_workspace_is_what_is_promised() -> None:
     np.testing.assert_array_equal(WORKSPACE, [0.42, 0.38])

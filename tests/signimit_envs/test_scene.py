@@ -1,5 +1,7 @@
 """The scene compiles, from wherever it is installed, and the arm reaches what it must."""
 
+from typing import Any
+
 import mujoco
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from signimit_envs.scene import OBJECT_COUNTS, OBJECT_NAMES, WORKSPACE, compile_
 
 
 @pytest.mark.parametrize("count", OBJECT_COUNTS)
-def test_every_number_of_objects_compiles(count):
+def test_every_number_of_objects_compiles(count: Any) -> None:
     model = compile_scene(count)
     assert model.nmocap == count == len(set(object_bodies(model)))
     assert (model.nq, model.nv, model.nu) == (3, 3, 3)
@@ -18,26 +20,26 @@ def test_every_number_of_objects_compiles(count):
 
 
 @pytest.mark.parametrize("count", [1, 7, "3", None])
-def test_other_numbers_of_objects_are_refused(count):
+def test_other_numbers_of_objects_are_refused(count: Any) -> None:
     with pytest.raises(signimit.InvalidInputError, match="objects: expected 2 to 6, found"):
         compile_scene(count)
 
 
-def test_names_that_others_rely_on():
+def test_names_that_others_rely_on() -> None:
     model = compile_scene()
     assert {model.camera(i).name for i in range(model.ncam)} == {"top", "perspective"}
     assert [model.joint(i).name for i in range(3)] == ["shoulder", "elbow", "wrist"]
     assert model.site("hand").id >= 0
 
 
-def test_all_joints_turn_about_the_vertical_and_the_table_is_clear_of_the_base():
+def test_all_joints_turn_about_the_vertical_and_the_table_is_clear_of_the_base() -> None:
     model = compile_scene()
     np.testing.assert_array_equal(model.jnt_axis, np.tile([0.0, 0.0, 1.0], (3, 1)))
     table = model.geom("tabletop")
     assert model.body("base").pos[1] < -table.size[1]
 
 
-def test_objects_are_below_the_hand():
+def test_objects_are_below_the_hand() -> None:
     model = compile_scene(6)
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
@@ -49,7 +51,7 @@ def test_objects_are_below_the_hand():
     assert max(tops) < tip
 
 
-def test_the_hand_reaches_the_whole_workspace_with_margin():
+def test_the_hand_reaches_the_whole_workspace_with_margin() -> None:
     """On a grid, closed up to the edges: at most 90 % stretched, and at least 0.2 rad from every joint's limit."""
     model = compile_scene()
     data, controller = mujoco.MjData(model), HandController(model)
@@ -66,7 +68,7 @@ def test_the_hand_reaches_the_whole_workspace_with_margin():
             assert np.hypot(*([x, y] - model.body("base").pos[:2])) < 0.9 * length
 
 
-def test_everywhere_in_the_workspace_the_drives_are_fast_enough_for_the_hand():
+def test_everywhere_in_the_workspace_the_drives_are_fast_enough_for_the_hand() -> None:
     """1.2 m/s in any direction needs no joint faster than its drive."""
     model = compile_scene()
     data, controller, jacobian = mujoco.MjData(model), HandController(model), np.zeros((3, 3))

@@ -33,7 +33,9 @@ def test_what_is_left_out_is_drawn_within_the_promised_areas() -> None:
 
 def test_what_is_given_is_taken() -> None:
     objects = [[0.1, 0.1], [-0.1, 0.1], [0.0, -0.1]]
-    situation = draw({"movement": np.int64(2), "focus": 1, "objects": objects, "hand": (0.3, -0.3), "signs": [WAVE] * 2})
+    situation = draw(
+        {"movement": np.int64(2), "focus": 1, "objects": objects, "hand": (0.3, -0.3), "signs": [WAVE] * 2}
+    )
     assert situation.request == (2, 1)
     np.testing.assert_array_equal(situation.objects, objects)
     np.testing.assert_array_equal(situation.hand, [0.3, -0.3])
