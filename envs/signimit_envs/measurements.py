@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import platform
 import time
 from collections.abc import Callable, Mapping
@@ -185,12 +186,8 @@ def time_frames(size: int = 480, frames: int = 30) -> dict[str, float]:
 
 def installed_versions() -> Mapping[str, str]:
     """Return what is installed, as far as speed and results depend on it."""
-    import scipy
-
-    import signimit
-
-    modules = (signimit, mujoco, mink, gym, np, scipy)
-    return {"python": platform.python_version(), **{m.__name__: str(m.__version__) for m in modules}}
+    packages = ("signimit", "mujoco", "mink", "gymnasium", "numpy", "scipy")
+    return {"python": platform.python_version(), **{p: importlib.metadata.version(p) for p in packages}}
 
 
 def _ignore(_: object) -> None:

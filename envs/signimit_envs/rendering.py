@@ -129,6 +129,22 @@ class OffscreenView:
             self._renderer = None
 
 
+def renderer_name() -> str:
+    """Return what OpenGL calls itself, e.g. ``"llvmpipe (LLVM 15)"``.
+
+    Raises:
+        RenderingError: If there is no OpenGL.
+    """
+    view = OffscreenView(mujoco.MjModel.from_xml_string("<mujoco/>"), 16, 16)
+    view._open()
+    from OpenGL import GL
+
+    try:
+        return bytes(GL.glGetString(GL.GL_RENDERER)).decode()
+    finally:
+        view.close()
+
+
 class WindowView:
     """Shows the scene in MuJoCo's interactive viewer."""
 
