@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import signimit as si
+from signimit_envs.exceptions import RenderingError
 
 pytest.importorskip("tyro")
 pytest.importorskip("tqdm")
@@ -56,15 +57,38 @@ def test_demonstrations_that_are_made_can_be_learned_from(run: Programs, tmp_pat
     assert len(truth) == len(si.DemonstrationSet.load(demos / "demonstrations.npz")) == 12
 
 
-def test_reproduce_writes_results_and_figures_and_prints_the_table(run: Programs, tmp_path: Path) -> None:
+def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
+    run: Programs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_backend() -> str:
+        raise RenderingError("no OpenGL library was found", "Install one.")
+
+    monkeypatch.setattr("signimit_envs.rendering.choose_backend", no_backend)
     out = tmp_path / "out"
-    said = run("reproduce", "--out", out, "--no-video", "--attempts", 1, "--seconds", 3)
-    assert "12 demonstrations show 3 movements" in said
+    said = run("reproduce", "--out", out, "--attempts", 1, "--seconds", 1)
+    assert "12 demonstrations show " in said
     assert "obeyed, unseen: " in said
+    assert "No videos. Cannot render: no OpenGL library was found. Install one." in said
     pictures = ["figure4.png", "figure5.png", "figure6.png", "figure7.png", "memberships.png"]
     assert sorted(p.name for p in out.iterdir()) == [*pictures, "results.json"]
     results = json.loads((out / "results.json").read_text())
     assert len(results["reproductions"]) == 9
+
+
+def test_render_says_what_was_understood_and_films_it(run: Programs, tmp_path: Path) -> None:
+    run("make_demonstrations", "--out", tmp_path)
+    model, video, signs = tmp_path / "model.npz", tmp_path / "answer.mp4", tmp_path / "signs.npz"
+    run("learn", tmp_path / "demonstrations.npz", "--prototypes", tmp_path / "prototypes.npz", "--out", model)
+    scene = ["--objects", -0.2, 0.1, 0.1, 0.1, 0, -0.1, "--hand", 0.1, -0.15]
+    try:
+        said = run("render", model, "--signs", signs, "--words", 1, 6, *scene, "--seconds", 1, "--out", video)
+    except SystemExit:
+        pytest.skip("there is no OpenGL here")
+    assert "Understood: movement " in said
+    assert video.stat().st_size > 1000
+    complaint = run.refusal("render", model, "--signs", signs, "--words", 1, "--out", tmp_path / "no.mp4")
+    assert "signs: expected 2 as in the demonstrations, found 1" in complaint
+    assert not (tmp_path / "no.mp4").exists()
 
 
 def test_sessions_counts_over_several_sessions(run: Programs, tmp_path: Path) -> None:
@@ -79,11 +103,12 @@ def test_sessions_counts_over_several_sessions(run: Programs, tmp_path: Path) ->
         ("learn", ["none.npz"], "none.npz: No such file"),
         ("learn", [SCRIPTS / "learn.py"], "expected a signimit demonstration set file"),
         ("reproduce", ["--method", "guess"], "Unknown method 'guess'"),
-        ("reproduce", ["--seed", -1], "seed: expected zero or more"),
+        ("reproduce", ["--no-video", "--seed", -1], "seed: expected zero or more"),
         ("reproduce", ["--signs", "none.npz"], "none.npz: No such file"),
         ("reproduce", ["--signer", "me"], "a stroke library to find them in"),
         ("make_demonstrations", ["--movements", SCRIPTS / "learn.py"], "expected a signimit stroke library file"),
         ("sessions", ["--sessions", 0], "sessions: expected at least 1"),
+        ("render", ["none.npz", "--signs", "none.npz", "--words", "1", "4"], "none.npz: No such file"),
     ],
 )
 def test_bad_input_gets_one_sentence_and_leaves_no_file(
