@@ -28,7 +28,58 @@ _MODES = ("rgb_array", "human")
 
 
 class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
-    """Obey two signs, unlabelled strokes, with a planar three-joint arm over a table with coloured objects."""
+    """Obey two signs, unlabelled strokes, with a planar three-joint arm over a table with coloured objects.
+
+    A synthetic person makes two signs; in this person's language the first names an object and the second a movement
+    about it. Nobody says so: the request behind the signs is in ``info``, for scoring only. Metres, seconds, radians;
+    x right, y away from the arm's base, origin at the middle of the table.
+
+    Action space:
+        ``Box(-1, 1, (3,), float32)``: velocities of shoulder, elbow and wrist, in units of 3.5 rad/s, for 1/50 s. What
+        is beyond is clipped; the joints stop at their limits.
+
+    Observation space:
+        ``Dict`` of finite float64 boxes:
+
+        ==================== ============ =====================================================================
+        key                  shape        meaning
+        ==================== ============ =====================================================================
+        ``hand``             (2,)         position of the hand, m
+        ``hand_velocity``    (2,)         its velocity, m/s
+        ``joints``           (3,)         angles of shoulder, elbow and wrist, rad
+        ``joint_velocities`` (3,)         their velocities, rad/s
+        ``objects``          (O, 2)       positions of the objects, red, green, blue and so on, m
+        ``signs``            (2, 64, 2)   the two signs, evenly resampled, centred, scaled to [-1, 1]
+        ==================== ============ =====================================================================
+
+    Reward:
+        1 at the step where the request is seen to be fulfilled for the first time, else 0. The path of up to the last
+        12 s is looked at every half second, first after 1.5 s; `signimit.performed` is the judge.
+
+    Starting state:
+        What ``reset(options=...)`` gives of ``movement``, ``focus``, ``objects`` (O, 2), ``hand`` (2,) and ``signs``
+        (two strokes of any length); the rest is drawn: objects and hand within 0.22 m and 0.18 m of the middle, objects
+        at least 0.14 m apart. The arm rests.
+
+    Episode end:
+        Truncated after 12 s (600 steps). Success does not end an episode. A blow-up of the physics terminates it.
+
+    Info:
+        ``request`` (movement, focus), ``is_success`` (in this episode so far), ``performance`` (of the moment of success;
+        movement -1 before), ``ik_residual`` (m, what of the last displacement of the hand was beyond the arm; 0 here),
+        ``physics_error`` (what went wrong; empty if nothing).
+
+    Args:
+        render_mode: ``"rgb_array"`` or, with a display, ``"human"``.
+        objects: Number of objects, 2 to 6.
+        movements: Labels of the movements that can be asked for, out of `signimit.people.MOVEMENT_LABELS`.
+        people_seed: Who signs, and whose drawings the judge compares with.
+        camera: ``"perspective"`` or ``"top"``.
+        size: Width and height of frames, pixels, at most 1280.
+
+    Version history:
+        v0: first version.
+    """
 
     metadata: dict[str, Any] = {  # noqa: RUF012 -- gymnasium declares it so
         "render_modes": list(_MODES) if has_display() else ["rgb_array"],

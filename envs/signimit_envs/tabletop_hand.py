@@ -13,7 +13,17 @@ from signimit_envs.tabletop import TabletopEnv
 
 
 class TabletopHandEnv(TabletopEnv):
-    """Obey two signs with hand velocities."""
+    """Obey two signs with hand velocities; everything but the action is as in `TabletopEnv`.
+
+    Action space:
+        ``Box(-1, 1, (2,), float32)``: velocity of the hand along x and y, in units of `max_hand_speed`, for 1/50 s.
+        mink solves for the joints, one control step ahead of the actual hand, within the limits of joints and drives.
+        Beyond its reach the hand goes as far as it can, and ``info["ik_residual"]`` says how much of the displacement
+        is missing, m.
+
+    Version history:
+        v0: first version.
+    """
 
     _action_size: ClassVar[int] = 2
     max_hand_speed: ClassVar[float] = 1.2
