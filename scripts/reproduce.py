@@ -58,7 +58,7 @@ def main(
     plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
     rng = np.random.default_rng([seed, 1])
     cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
-    print(f"{cast.names[0]} makes the signs, {cast.names[1]} shows the movements.")
+    print(f"The signs are made by {cast.names[0]}, the movements by {cast.names[1]}.")
     result = run_session(plan, cast, lambda commands: tqdm(commands, "obeying", unit="command"))
     print(f"\n{result.model.summary()}\n\n{inference_lines(result)}\n\n{session_table(result)}\n")
     with whole_files(out) as folder:

@@ -13,10 +13,10 @@ import numpy as np
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.languages import Language
 from signimit.people import synthetic_library
-from signimit.strokes import Stroke, StrokeLibrary
+from signimit.relabelling import renamed, with_mirror_images
+from signimit.strokes import StrokeLibrary
 
 SIGN_SAMPLES, MOVEMENT_SAMPLES = 24, 12  # how often a synthetic person draws each label
-TRIANGLES = {"triangle up": 1.0, "triangle down": -1.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +82,7 @@ def load_person(source: Source, labels: Sequence[str], rng: np.random.Generator)
         rng: Draws the person.
 
     Returns:
-        The person's strokes and name.
+        The person's strokes, and a name for reports.
 
     Raises:
         FileFormatError: If it is no such file.
@@ -90,7 +90,7 @@ def load_person(source: Source, labels: Sequence[str], rng: np.random.Generator)
         InvalidInputError: If the person, or everybody, lacks one of the labels.
     """
     path, name = os.fspath(source.library or ""), source.person
-    library = with_triangles(StrokeLibrary.load(path))
+    library = with_both_triangles(StrokeLibrary.load(path))
     if name is not None and name not in library.writers:
         raise UnknownNameError(f"person in {path}", name, sorted(set(library.writers)))
     candidates = sorted(set(library.writers)) if name is None else [name]
@@ -101,17 +101,15 @@ def load_person(source: Source, labels: Sequence[str], rng: np.random.Generator)
         who = f"{path}: {name or 'everybody'}"
         raise InvalidInputError(who, f"strokes of {', '.join(labels)}", f"none of {', '.join(lacking) or 'some'}")
     person = able[int(rng.integers(len(able)))]
-    return library.select(writer=person), person
+    return library.select(writer=person), f"{person} of {os.path.basename(path)}"
 
 
-def with_triangles(library: StrokeLibrary) -> StrokeLibrary:
-    """Add "triangle up" and, mirrored, "triangle down" to a library that only has apex-up "triangle"."""
-    if "triangle" not in library.labels:
-        return library
-    drawn, missing = library.select("triangle"), [name for name in TRIANGLES if name not in library.labels]
-    for name in missing:
-        strokes = tuple(Stroke(s.points * (1.0, TRIANGLES[name]), s.times) for s in drawn)
-        library += StrokeLibrary(strokes, (name,) * len(strokes), drawn.writers)
+def with_both_triangles(library: StrokeLibrary) -> StrokeLibrary:
+    """Call apex-up "triangle" "triangle up", and mirror it where there is no "triangle down"."""
+    if "triangle" in library.labels and "triangle up" not in library.labels:
+        library = renamed(library, {"triangle": "triangle up"})
+    if "triangle up" in library.labels and "triangle down" not in library.labels:
+        library = with_mirror_images(library, {"triangle up": "triangle down"})
     return library
 
 

@@ -11,7 +11,7 @@ from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameE
 from signimit.languages import PAPER_LANGUAGE
 from signimit.people import synthetic_library
 from signimit.strokes import Stroke, StrokeLibrary
-from signimit_envs.casting import Source, cast_people, load_person, sign_labels, with_triangles
+from signimit_envs.casting import Source, cast_people, load_person, sign_labels, with_both_triangles
 
 
 def rng() -> np.random.Generator:
@@ -36,26 +36,26 @@ def test_synthetic_people_draw_everything_the_language_needs_and_are_called_synt
 
 
 def test_a_triangle_down_is_the_mirror_of_an_apex_up_triangle(shapes: Path) -> None:
-    library = with_triangles(StrokeLibrary.load(shapes))
+    library = with_both_triangles(StrokeLibrary.load(shapes))
     up, down = library.select("triangle up")[0], library.select("triangle down")[0]
-    np.testing.assert_array_equal(up.points, library.select("triangle")[0].points)
+    np.testing.assert_array_equal(up.points, StrokeLibrary.load(shapes)[0].points)
     np.testing.assert_array_equal(down.points, up.points * (1, -1))
 
 
 def test_triangles_that_have_a_direction_stay_as_they_are() -> None:
     library = synthetic_library(["triangle up", "triangle down"], samples=2, rng=rng())
-    assert with_triangles(library) is library
+    assert with_both_triangles(library) is library
 
 
 def test_anybody_is_somebody_who_drew_everything(shapes: Path) -> None:
     for seed in range(5):
         _, name = load_person(Source(shapes), PAPER_LANGUAGE.movements, np.random.default_rng(seed))
-        assert name == "a"
+        assert name == "a of shapes.npz"
 
 
 def test_a_named_person_is_taken_alone(shapes: Path) -> None:
     library, name = load_person(Source(shapes, "b"), ("triangle up",), rng())
-    assert name == "b"
+    assert name == "b of shapes.npz"
     assert set(library.writers) == {"b"}
 
 
