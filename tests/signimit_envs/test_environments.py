@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import re
 from pathlib import Path
 from typing import Any
 
@@ -190,6 +191,16 @@ def test_the_hand_speed_that_actions_are_scaled_by() -> None:
     np.testing.assert_allclose(observation["hand_velocity"], [0.25 * arm.max_hand_speed, 0.0], atol=0.01)
     np.testing.assert_allclose(observation["hand"] - first["hand"], [0.5 * arm.max_hand_speed / 50, 0.0], atol=1e-3)
     env.close()
+
+
+def test_the_page_about_the_environment_tells_of_its_observations() -> None:
+    """The table in the docstring has the keys and shapes of the space, in order."""
+    rows = re.findall(r"^ +``(\w+)`` +\(([^)]*)\)", TabletopEnv.__doc__ or "", flags=re.MULTILINE)
+    told = {name: tuple(3 if size == "O" else int(size) for size in shape.split(",") if size.strip(" ")) for name, shape in
+            ((name, shape.replace(" ", "")) for name, shape in rows) if name in OBSERVED}  # fmt: skip
+    space = TabletopEnv().observation_space
+    assert isinstance(space, gym.spaces.Dict)
+    assert told == {name: box.shape for name, box in space.items()}
 
 
 def test_closing_twice_is_allowed(env: gym.Env[Any, Any]) -> None:
