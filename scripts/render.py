@@ -59,7 +59,8 @@ def main(
     understood = f"movement {answer.movement} about {object_name(answer.focus)}, confidence {answer.confidence:.2f}"
     print(f"Understood: {understood}.")
     captions = (f"The signs {' '.join(words)} are made", f"The robot understood {understood}")
-    write_video(out, film_shots(show_answer(strokes, places, answer, captions), count), FRAME_RATE)
+    film = film_shots(list(show_answer(strokes, places, answer, captions)), count)
+    write_video(out, film.frames, FRAME_RATE)
     print(f"The video is {out}.")
 
 

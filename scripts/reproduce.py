@@ -75,8 +75,8 @@ def write_videos(result: SessionResult, folder: Path) -> None:
     from tqdm import tqdm
 
     try:
-        for name, film in (("grid", film_grid), ("story", film_story)):
-            frames = tqdm(film(result), f"filming {name}.mp4", unit="frame")
+        for name, film in (("grid", film_grid(result)), ("story", film_story(result))):
+            frames = tqdm(film.frames, f"filming {name}.mp4", film.length, unit="frame")
             write_video(folder / f"{name}.mp4", frames, FRAME_RATE)
     except RenderingError as error:
         print(f"No videos. {error}")

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.languages import Request
+from signimit.languages import Language, Request
 from signimit.summary import object_name
 from signimit_envs.panels import draw_caption, draw_card, draw_label, draw_signs
+from signimit_envs.scene import CONTROL_RATE
 from signimit_envs.session import Reproduction, SessionResult
 from signimit_envs.stage import Stage
-from signimit_envs.storyboard import FRAME_RATE, STRIDE, Shot, tell_story
+from signimit_envs.storyboard import STRIDE, Shot, tell_story
 
 Frame = NDArray[np.uint8]
 SCENE_SIZE, SIGNS_WIDTH, CAPTION_HEIGHT = (640, 480), 320, 64  # pixels
@@ -21,24 +23,51 @@ TILE = 320  # pixels
 GRID_SECONDS = 8.0
 
 
-def film_story(result: SessionResult) -> Iterator[Frame]:
-    """Draw the story of a session, frame by frame.
+class Film(NamedTuple):
+    """A film that is drawn while it is watched.
 
-    Raises:
-        RenderingError: If there is no OpenGL.
+    Attributes:
+        frames: Its frames, each (height, width, 3); a `RenderingError` comes with the first if there is no OpenGL.
+        length: How many there will be.
     """
-    return film_shots(tell_story(result), result.session.plan.language.objects)
+
+    frames: Iterator[Frame]
+    length: int
 
 
-def film_shots(shots: Iterable[Shot], objects: int) -> Iterator[Frame]:
-    """Draw shots of scenes with so many objects, each frame (544, 960, 3).
+def film_story(result: SessionResult) -> Film:
+    """Film the story of a session."""
+    return film_shots(list(tell_story(result)), result.session.plan.language.objects)
 
-    Raises:
-        RenderingError: If there is no OpenGL.
-    """
+
+def film_shots(shots: Sequence[Shot], objects: int) -> Film:
+    """Film shots of scenes with so many objects, in frames of shape (544, 960, 3)."""
+    return Film(_draw_shots(shots, objects), len(shots))
+
+
+def film_grid(result: SessionResult) -> Film:
+    """Film the first answer to every pair of signs, all at once, rows movements and columns objects."""
+    first: dict[Request, Reproduction] = {}
+    for reproduction in result.reproductions:
+        first.setdefault(reproduction.command.request, reproduction)
+    steps = min(len(r.answer.path) for r in first.values())
+    ends = range(1, min(steps, round(GRID_SECONDS * CONTROL_RATE)) + 1, STRIDE)
+    return Film(_draw_grid(list(first.values()), result.session.plan.language, ends), len(ends))
+
+
+def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
     with closing(Stage(objects, *SCENE_SIZE)) as stage:
         for shot in shots:
             yield draw_shot(shot, stage)
+
+
+def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
+    """Draw frame by frame where the hands are after each of ``ends`` control steps."""
+    with closing(Stage(language.objects, TILE, TILE)) as stage:
+        for end in ends:
+            tiles = [_draw_tile(r, end, language.movements[r.command.request.movement], stage) for r in reproductions]
+            rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
+            yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
 
 
 def draw_shot(shot: Shot, stage: Stage) -> Frame:
@@ -51,25 +80,7 @@ def draw_shot(shot: Shot, stage: Stage) -> Frame:
     return np.vstack([np.hstack([signs, stage.picture(shot, "perspective")]), caption])
 
 
-def film_grid(result: SessionResult) -> Iterator[Frame]:
-    """Draw the first answer to every pair of signs, all at once, rows movements and columns objects.
-
-    Raises:
-        RenderingError: If there is no OpenGL.
-    """
-    language = result.session.plan.language
-    first: dict[Request, Reproduction] = {}
-    for reproduction in result.reproductions:
-        first.setdefault(reproduction.command.request, reproduction)
-    steps = min(len(r.answer.path) for r in first.values())
-    with closing(Stage(language.objects, TILE, TILE)) as stage:
-        for end in range(1, min(steps, round(GRID_SECONDS * FRAME_RATE * STRIDE)) + 1, STRIDE):
-            tiles = [_tile(first[request], end, language.movements[request.movement], stage) for request in first]
-            rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
-            yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
-
-
-def _tile(reproduction: Reproduction, end: int, movement: str, stage: Stage) -> Frame:
+def _draw_tile(reproduction: Reproduction, end: int, movement: str, stage: Stage) -> Frame:
     command = reproduction.command
     shot = Shot(
         phase="D",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -11,10 +10,10 @@ from numpy.typing import NDArray
 
 from signimit_envs.casting import cast_people
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.films import film_grid, film_shots, film_story
+from signimit_envs.films import Film, film_grid, film_shots, film_story
 from signimit_envs.panels import INK, MARK, PAPER, draw_caption, draw_card, draw_label, draw_signs
 from signimit_envs.session import SessionPlan, SessionResult, run_session
-from signimit_envs.storyboard import CARD_FRAMES, Shot, show_demonstration, show_reproduction, tell_story
+from signimit_envs.storyboard import CARD_FRAMES, FRAME_RATE, Shot, show_demonstration, show_reproduction, tell_story
 
 PLAN = SessionPlan(attempts=2, seconds=1.0)
 SIGN = np.array([[0, 0], [1, 2], [3, 1.0]])
@@ -29,9 +28,9 @@ def colours(picture: NDArray[np.uint8]) -> set[tuple[int, ...]]:
     return {tuple(int(c) for c in colour) for colour in np.unique(picture.reshape(-1, 3), axis=0)}
 
 
-def frames_or_skip(frames: Iterator[NDArray[np.uint8]], count: int) -> list[NDArray[np.uint8]]:
+def frames_or_skip(film: Film, count: int) -> list[NDArray[np.uint8]]:
     try:
-        return list(itertools.islice(frames, count))
+        return list(itertools.islice(film.frames, count))
     except RenderingError as error:
         pytest.skip(str(error))
 
@@ -127,7 +126,9 @@ def test_the_trail_and_the_demonstrators_hand_can_be_seen() -> None:
 
 
 def test_the_grid_shows_all_pairs_at_once(result: SessionResult) -> None:
-    (frame,) = frames_or_skip(film_grid(result), 1)
+    film = film_grid(result)
+    assert film.length == PLAN.seconds * FRAME_RATE + 1
+    (frame,) = frames_or_skip(film, 1)
     assert frame.shape == (960, 960, 3)
     tiles = frame.reshape(3, 320, 3, 320, 3).swapaxes(1, 2)
     framed = (tiles[:, :, -1] == MARK).all(axis=(2, 3))
