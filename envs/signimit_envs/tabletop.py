@@ -65,9 +65,9 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         Truncated after 12 s (600 steps). Success does not end an episode. A blow-up of the physics terminates it.
 
     Info:
-        ``request`` (movement, focus), ``is_success`` (in this episode so far), ``performance`` (a `signimit.Performance`,
-        of the moment of success; movement -1 before), ``ik_residual`` (m, what of the last displacement of the hand was
-        beyond the arm; 0 here), ``physics_error`` (what went wrong; empty if nothing).
+        ``request`` (movement, focus), ``is_success`` (in this episode so far), ``performance`` (a
+        `signimit.Performance`, of the moment of success; movement -1 before), ``ik_residual`` (m, what of the last
+        displacement of the hand was beyond the arm; 0 here), ``physics_error`` (what went wrong; empty if nothing).
 
     Args:
         render_mode: ``"rgb_array"`` or, with a display, ``"human"``.

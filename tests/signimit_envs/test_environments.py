@@ -195,9 +195,12 @@ def test_the_hand_speed_that_actions_are_scaled_by() -> None:
 
 def test_the_page_about_the_environment_tells_of_its_observations() -> None:
     """The table in the docstring has the keys and shapes of the space, in order."""
-    rows = re.findall(r"^ +``(\w+)`` +\(([^)]*)\)", TabletopEnv.__doc__ or "", flags=re.MULTILINE)
-    told = {name: tuple(3 if size == "O" else int(size) for size in shape.split(",") if size.strip(" ")) for name, shape in
-            ((name, shape.replace(" ", "")) for name, shape in rows) if name in OBSERVED}  # fmt: skip
+    rows = re.findall(r"^ +``(\w+)`` +\((\w+),([\d, ]*)\)", TabletopEnv.__doc__ or "", flags=re.MULTILINE)
+    told = {
+        name: tuple(int(size) for size in (first.replace("O", "3"), *rest.split(",")) if size.strip())
+        for name, first, rest in rows
+        if name in OBSERVED
+    }
     space = TabletopEnv().observation_space
     assert isinstance(space, gym.spaces.Dict)
     assert told == {name: box.shape for name, box in space.items()}
