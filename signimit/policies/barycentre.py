@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from signimit.policies.arclength import SpacedPath, interpolate
 from signimit.policies.protocol import Array
 
-SHORTEST_PASS = 0.15  # of a round; less is the end of a stroke, not a pass
 UNLIKE = 1.5  # passes further from the median pass than so many typical distances count less
 
 
@@ -45,20 +44,23 @@ class MeanPass(NamedTuple):
     support: Array
 
 
-def cut_passes(path: SpacedPath, phases: NDArray[np.int64], nodes: int) -> Iterator[Pass]:
+def cut_passes(
+    path: SpacedPath, phases: NDArray[np.int64], nodes: int, shortest: float = 0.0
+) -> Iterator[Pass]:
     """Cut an aligned demonstration into its rounds.
 
     Args:
         path: The demonstration.
         phases: Node of each point, shape (n,), as `align_phases` gives them.
         nodes: Number of nodes M of the course.
+        shortest: Share of a round that makes a pass; less is left out.
     """
     drawn = phases >= 0
     first, points, stamps = _by_phase(phases[drawn], path.points[drawn], path.times[drawn])
     last = first + len(points) - 1
     for start in range(first - first % nodes, last + 1, nodes):
         low, high = max(first, start), min(last, start + nodes - 1)
-        if high - low + 1 < SHORTEST_PASS * nodes:
+        if high - low + 1 < shortest * nodes:
             continue
         position, duration = np.full((nodes, 2), np.nan), np.full(nodes, np.nan)
         position[low - start : high - start + 1] = points[low - first : high - first + 1]
@@ -98,6 +100,6 @@ def _pass_weights(points: Array, seen: NDArray[np.bool_]) -> Array:
     median[shown] = np.nanmedian(points[:, shown], axis=0)
     gaps = np.where(seen, np.hypot(*np.moveaxis(points - median, -1, 0)), 0.0)
     distance = gaps.sum(axis=1) / seen.sum(axis=1)
-    allowed = UNLIKE * np.median(distance)
-    weights: Array = np.minimum(1.0, allowed / np.maximum(distance, max(allowed, 1e-12))) ** 2
+    allowed = max(UNLIKE * float(np.median(distance)), 1e-9)
+    weights: Array = np.minimum(1.0, allowed / np.maximum(distance, allowed)) ** 2
     return weights

@@ -22,17 +22,15 @@ from signimit.policies.protocol import Array
 from signimit.strokes import Stroke
 
 COARSE, FINE = 110, 360  # points of a typical demonstration, to choose a course and to refine it
-MOST_MODELS, MOST_CHOSEN_BY, MOST_REFINED_BY = (
-    8,
-    12,
-    40,
-)  # demonstrations looked at; more add time, not accuracy
-NODE_COST = (
-    1.0  # of a node, in the unit of a point's cost: a description of twice the length must pay for itself
-)
+MOST_MODELS = 8  # demonstrations that candidate courses are taken from
+MOST_CHOSEN_BY = 12  # demonstrations that choose among them
+MOST_REFINED_BY = 40  # demonstrations averaged; more add time, not accuracy
+NODE_COST = 0.25  # of a node, in the unit of a point's cost: a longer course must pay for itself
 INLIERS = 0.8  # of the demonstrations choose the course: a wrong member has no say
 FEWEST_ROUNDS = 1.3  # the typical demonstration of a repeating movement goes round at least so often
 REFINEMENTS = 3
+SHORTEST_PASS = 0.15  # of a round; less is the end of a stroke, not another round
+FEWEST_NODES = 5  # of the way to a goal that everybody reaches from another side
 
 
 class Course(NamedTuple):
@@ -92,7 +90,7 @@ def _choose_course(paths: Sequence[Array], scale: float) -> tuple[Array, bool]:
             if closed and np.median([_rounds(a.phases, len(points)) for a in alignments]) < FEWEST_ROUNDS:
                 continue
             costs = np.sort([a.cost for a in alignments])[: int(np.ceil(INLIERS * len(paths)))]
-            total = float(costs.sum()) + NODE_COST * len(points)
+            total = float(costs.mean()) + NODE_COST * len(points)
             if total < best:
                 best, choice = total, (points, closed)
     return choice
@@ -113,8 +111,11 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
     for _ in range(REFINEMENTS):
         nodes = space_course(mean.points, spacing, closed)
         alignments = align_phases([p.points for p in paths], nodes, closed, scale)
+        shortest = SHORTEST_PASS if closed else 0.0
         passes = [
-            one for p, a in zip(paths, alignments, strict=True) for one in cut_passes(p, a.phases, len(nodes))
+            one
+            for path, alignment in zip(paths, alignments, strict=True)
+            for one in cut_passes(path, alignment.phases, len(nodes), shortest)
         ]
         mean = _shared_part(mean_pass(passes), 0.0 if closed else 0.5 * len(paths))
     if closed:
@@ -124,9 +125,13 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
 
 
 def _shared_part(mean: MeanPass, fewest: float) -> MeanPass:
-    """Drop nodes with less support: seen by nobody, or the reach of a single demonstration."""
-    shared = mean.support > fewest
-    return MeanPass(*(values[shared] for values in mean)) if np.count_nonzero(shared) > 4 else mean
+    """Drop nodes that nobody passed, and the beginning that fewer than so many did: the reach of the model."""
+    passed = np.flatnonzero(mean.support > 0)
+    begin = int(np.argmax(mean.support[passed] >= fewest))
+    if mean.support[passed[begin]] < fewest:
+        begin = len(passed)
+    kept = passed[min(begin, max(len(passed) - FEWEST_NODES, 0)) :]
+    return MeanPass(*(values[kept] for values in mean))
 
 
 def _reach_speed(paths: Sequence[SpacedPath], alignments: Sequence[PhaseAlignment]) -> float:

@@ -9,8 +9,8 @@ from signimit.policies.course import Course
 from signimit.policies.protocol import CONTROL_PERIOD, Array
 
 SLOWEST = 0.1  # of the mean speed: a longer pause is shortened
-FASTEST = 2.0  # m/s: a glitch is slowed down
-CORNER_ALLOWANCE = 1.04  # times the size: a mean of corners that do not quite meet lies inside them
+FASTEST = 4.0  # of the mean speed: a glitch is slowed down
+CORNER_ALLOWANCE = 1.025  # times the size: a mean of corners that do not quite meet lies inside them
 
 
 def time_course(course: Course) -> Array:
@@ -18,8 +18,11 @@ def time_course(course: Course) -> Array:
     line = np.concatenate([course.points, course.points[:1]]) if course.closed else course.points
     steps = np.hypot(*np.diff(line, axis=0).T)
     durations = _smooth(course.durations, course.closed)[: len(steps)]
-    mean = steps.sum() / max(durations.sum(), 1e-9)
-    durations = np.clip(durations, steps / FASTEST, steps / (SLOWEST * mean))
+    shown = durations > 0
+    mean = steps[shown].sum() / durations[shown].sum() if shown.any() else course.reach_speed
+    durations = np.clip(
+        np.where(shown, durations, steps / mean), steps / (FASTEST * mean), steps / (SLOWEST * mean)
+    )
     clock = np.concatenate([[0.0], np.cumsum(durations)])
     count = max(round(clock[-1] / CONTROL_PERIOD), 2)
     even = np.linspace(0.0, clock[-1], count + 1)
