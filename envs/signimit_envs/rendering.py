@@ -6,6 +6,7 @@ import functools
 import os
 import subprocess
 import sys
+import weakref
 from collections.abc import Callable
 from typing import Any
 
@@ -87,6 +88,7 @@ class OffscreenView:
         """Remember what to draw, and how large, in pixels (at most 1280 each way)."""
         self._model, self._width, self._height = model, width, height
         self._renderer: mujoco.Renderer | None = None
+        self._free: Callable[[], object] | None = None
 
     def frame(
         self,
@@ -120,13 +122,15 @@ class OffscreenView:
             self._renderer = mujoco.Renderer(self._model, self._height, self._width)
         except (mujoco.FatalError, ImportError, RuntimeError, AttributeError) as error:
             raise RenderingError(f"OpenGL through {backend or 'the system'} failed ({error})", INSTALL) from error
+        # Also when nobody closes the view: a renderer that outlives the interpreter complains.
+        self._free = weakref.finalize(self, self._renderer.close)
         return self._renderer
 
     def close(self) -> None:
         """Free what OpenGL holds; may be called again."""
-        if self._renderer is not None:
-            self._renderer.close()
-            self._renderer = None
+        if self._free is not None:
+            self._free()
+        self._renderer = self._free = None
 
 
 def renderer_name() -> str:

@@ -25,7 +25,8 @@ def small_session() -> signimit.DemonstrationSet:
     rng = np.random.default_rng(0)
     signs = synthetic_library(labels, samples=4, rng=rng)
     movements = synthetic_library(language.movements, samples=4, rng=rng)
-    return compose_demonstrations(language, signs, movements, rng)[0]
+    demonstrations, _ = compose_demonstrations(language, signs, movements, rng)
+    return signimit.DemonstrationSet(list(demonstrations)[:2])
 
 
 def test_plain_loops_by_hand() -> None:

@@ -132,6 +132,18 @@ def test_closing_a_view_twice_is_allowed_and_it_opens_again(view: OffscreenView,
     np.testing.assert_array_equal(view.frame(data), plain)
 
 
+@pytest.mark.usefixtures("view")
+def test_an_environment_that_nobody_closes_leaves_quietly() -> None:
+    program = (
+        "import gymnasium as gym\n"
+        "env = gym.make('signimit_envs:signimit/Tabletop-v0', render_mode='rgb_array', size=(32, 32))\n"
+        "env.reset(seed=0); print(env.render().shape)"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "(32, 32, 3)\n", "")
+
+
 def test_the_environment_renders_what_it_was_asked_to(view: OffscreenView) -> None:
     env = gym.make("signimit/Tabletop-v0", render_mode="rgb_array", size=(64, 48), camera="top")
     env.reset(seed=0)
