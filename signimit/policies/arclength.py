@@ -15,7 +15,7 @@ class SpacedPath(NamedTuple):
 
     Attributes:
         points: Positions, shape (n, 2), m.
-        times: When the hand passed them, shape (n,), s; a pause is a jump.
+        times: When the hand passed them, shape (n,), s; a pause belongs to the step after it.
     """
 
     points: Array

@@ -1,6 +1,6 @@
 """Gaussian mixture regression, the number of components chosen by BIC (the paper's [12] and [15]).
 
-Calinon, Guenter and Billard 2007, doi:10.1109/TSMCB.2006.886952; written here on numpy and scipy.
+Calinon, Guenter and Billard 2007, doi:10.1109/TSMCB.2006.886952; written here on numpy.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.cluster.vq import kmeans2
 
 from signimit.exceptions import InvalidInputError
 from signimit.policies.gaussian_mixture import (
@@ -28,7 +27,6 @@ from signimit.strokes import Stroke
 COMPONENTS = (1, 2, 3, 4, 6, 8, 10, 12, 16)
 STEPS = 30  # of expectation maximisation
 MOST_POINTS = 800  # evenly taken from all demonstrations; enough for 16 components over four features
-SEED = 0  # of the first clusters: the same demonstrations give the same policy
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +82,10 @@ def speed_limit(data: Array) -> float:
 
 
 def _fit(data: Array, count: int) -> Mixture:
-    spread = data.std(axis=0) + 1e-12
-    _, cluster = kmeans2(data / spread, count, minit="++", rng=np.random.default_rng(SEED), missing="warn")
-    return fit_mixture(data, np.eye(count)[cluster], STEPS)
+    """Run expectation maximisation from the clusters about points far from each other."""
+    scaled = data / (data.std(axis=0) + 1e-12)
+    gaps = np.full((len(data), count), np.inf)
+    for k in range(count):
+        far = int(gaps.min(axis=1).argmax())
+        gaps[:, k] = np.sqrt(((scaled - scaled[far]) ** 2).sum(axis=1))
+    return fit_mixture(data, np.eye(count)[gaps.argmin(axis=1)], STEPS)

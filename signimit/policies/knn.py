@@ -60,6 +60,7 @@ class KNearestPolicy(StoredPolicy):
 
     def __call__(self, hand: ArrayLike) -> Array:
         """Return velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
-        _, nearest = self._tree.query(check_hand(hand), k=min(NEIGHBOURS, len(self.points)))
-        mean: Array = self.directions[nearest].reshape(*np.shape(hand)[:-1], -1, 2).mean(axis=-2)
+        hands, count = check_hand(hand), min(NEIGHBOURS, len(self.points))
+        _, nearest = self._tree.query(hands, k=count)
+        mean: Array = self.directions[nearest].reshape(*hands.shape[:-1], count, 2).mean(axis=-2)
         return mean * self.speed

@@ -1,0 +1,188 @@
+"""The contract that every kind of policy keeps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from signimit.archive import write_archive
+from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, StatefulPolicy, load_policy, make_policy
+
+Shown = Any
+Compose = Callable[..., Shown]
+HANDS = np.random.default_rng(1).uniform(-0.5, 0.5, (40, 2))
+
+
+def drive(policy: Policy, hands: NDArray[np.float64], steps: int) -> NDArray[np.float64]:
+    """Move hands as the checks do, shape (steps + 1, B, 2)."""
+    path, state = [hands], policy.start() if isinstance(policy, StatefulPolicy) else None
+    for _ in range(steps):
+        if isinstance(policy, StatefulPolicy):
+            state, velocity = policy.step(state, path[-1])
+        else:
+            velocity = policy(path[-1])
+        path.append(path[-1] + 0.02 * velocity)
+    return np.array(path)
+
+
+@pytest.fixture(scope="module")
+def policies(shown: Compose) -> dict[str, Policy]:
+    return {kind: make_policy(*shown("triangle up")[:2], kind=kind) for kind in POLICY_KINDS}
+
+
+def test_the_default_is_one_of_the_kinds_and_keeps_a_state(shown: Compose) -> None:
+    policy = make_policy(*shown("circle")[:2])
+    assert policy.kind == DEFAULT_POLICY == "path-following"
+    assert isinstance(policy, StatefulPolicy)
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_shape_out_is_shape_in(kind: str, policies: dict[str, Policy]) -> None:
+    policy = policies[kind]
+    assert policy([0.1, 0.0]).shape == (2,)
+    assert policy(HANDS).shape == HANDS.shape
+    assert policy(np.zeros((0, 2))).shape == (0, 2)
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_many_hands_move_as_each_alone(kind: str, policies: dict[str, Policy]) -> None:
+    together = policies[kind](HANDS)
+    np.testing.assert_allclose(together, [policies[kind](hand) for hand in HANDS], atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_many_hands_step_as_each_alone(kind: str, policies: dict[str, Policy]) -> None:
+    together = drive(policies[kind], HANDS[:6], 60)
+    alone = np.stack([drive(policies[kind], hand, 60) for hand in HANDS[:6]], axis=1)
+    np.testing.assert_allclose(together, alone, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_velocities_are_finite_from_everywhere(kind: str, policies: dict[str, Policy]) -> None:
+    rng = np.random.default_rng(0)
+    hands = np.concatenate([rng.uniform(-s, s, (50, 2)) for s in (1e-9, 0.1, 1.0, 900.0)])
+    assert np.isfinite(policies[kind](hands)).all()
+    assert np.isfinite(drive(policies[kind], hands, 100)).all()
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_a_saved_policy_is_the_same_policy(kind: str, policies: dict[str, Policy], tmp_path: Path) -> None:
+    policies[kind].save(tmp_path / "policy.npz")
+    again = load_policy(tmp_path / "policy.npz")
+    assert again.kind == kind
+    np.testing.assert_array_equal(again(HANDS), policies[kind](HANDS))
+    np.testing.assert_array_equal(drive(again, HANDS, 20), drive(policies[kind], HANDS, 20))
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_the_same_demonstrations_give_the_same_policy(
+    kind: str, policies: dict[str, Policy], shown: Compose
+) -> None:
+    paths, times, _ = shown("triangle up")
+    for array in (*paths, *times):
+        array.setflags(write=False)
+    np.testing.assert_array_equal(make_policy(paths, times, kind)(HANDS), policies[kind](HANDS))
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_a_policy_shares_no_memory_with_its_demonstrations_or_its_answers(kind: str, shown: Compose) -> None:
+    paths, times, _ = shown("circle", 2)
+    policy = make_policy(paths, times, kind)
+    before = policy(HANDS)
+    for path in paths:
+        path += 1.0
+    answer = policy(HANDS)
+    np.testing.assert_array_equal(answer, before)
+    answer += 1.0
+    np.testing.assert_array_equal(policy(HANDS), before)
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_a_policy_cannot_be_changed(kind: str, policies: dict[str, Policy]) -> None:
+    name = next(iter(vars(policies[kind])))
+    with pytest.raises(AttributeError):
+        setattr(policies[kind], name, 0.0)
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize("count", [1, 2, 30])
+def test_any_number_of_demonstrations_will_do(kind: str, count: int, shown: Compose) -> None:
+    policy = make_policy(*shown("circle", count)[:2], kind=kind)
+    assert np.isfinite(drive(policy, HANDS, 50)).all()
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_short_slow_and_resting_demonstrations_will_do(kind: str) -> None:
+    two_points = make_policy([[[0.0, 0.0], [0.1, 0.0]]], [[0.0, 1.0]], kind)
+    rests = np.repeat([[0.0, 0.0], [0.1, 0.0], [0.1, 0.1]], 20, axis=0)
+    resting = make_policy([rests] * 2, [0.02 * np.arange(60)] * 2, kind)
+    for policy in (two_points, resting):
+        assert np.isfinite(drive(policy, HANDS, 30)).all()
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize(
+    "hand", [[0.0], [0.0, np.nan], [np.inf, 0.0], [[0.0, 0.0, 0.0]], np.zeros((2, 2, 2)), [1e9, 0.0]]
+)
+def test_a_bad_hand_is_refused(kind: str, hand: Any, policies: dict[str, Policy]) -> None:
+    with pytest.raises(InvalidInputError, match="hand"):
+        policies[kind](hand)
+
+
+@pytest.mark.parametrize("kind", ["path-following", "dmp"])
+def test_a_state_belongs_to_hands_of_its_shape(kind: str, policies: dict[str, Policy]) -> None:
+    policy = policies[kind]
+    assert isinstance(policy, StatefulPolicy)
+    state, _ = policy.step(policy.start(), HANDS[:3])
+    with pytest.raises(InvalidInputError, match="state"):
+        policy.step(state, HANDS[:4])
+    with pytest.raises(InvalidInputError, match="state"):
+        policy.step(state, HANDS[0])
+
+
+def test_an_unknown_kind_is_refused_with_the_known_ones(shown: Compose) -> None:
+    with pytest.raises(UnknownNameError, match="path-following"):
+        make_policy(*shown("circle", 1)[:2], kind="magic")
+
+
+@pytest.mark.parametrize(
+    ("paths", "times", "message"),
+    [
+        ([], [], "at least one path"),
+        ([np.zeros((3, 2))], [np.arange(3.0)], "demonstration 0: stroke points: expected points that move"),
+        ([np.eye(2)], [np.arange(2.0), np.arange(2.0)], "as many times as paths"),
+        (
+            [np.eye(2), np.eye(2) * np.nan],
+            [np.arange(2.0)] * 2,
+            "demonstration 1: stroke points: expected finite",
+        ),
+        ([np.eye(2)], [np.zeros(2)], "demonstration 0: stroke times: expected strictly increasing"),
+        ([np.eye(2) * 1e9], [np.arange(2.0)], "demonstration 0: points: expected positions within"),
+    ],
+)
+def test_bad_demonstrations_are_refused_by_number(paths: Any, times: Any, message: str) -> None:
+    with pytest.raises(InvalidInputError, match=message):
+        make_policy(paths, times)
+
+
+def test_foreign_and_damaged_files_are_refused(tmp_path: Path, policies: dict[str, Policy]) -> None:
+    write_archive(tmp_path / "kind.npz", "policy", 1, {}, {"policy": "magic"})
+    write_archive(tmp_path / "empty.npz", "policy", 1, {}, {"policy": "knn"})
+    shapes = {"points": np.zeros((3, 2)), "directions": np.zeros((2, 2)), "speed": np.array(1.0)}
+    write_archive(tmp_path / "shapes.npz", "policy", 1, shapes, {"policy": "knn"})
+    for name in ("kind.npz", "empty.npz", "shapes.npz"):
+        with pytest.raises(FileFormatError, match=name):
+            load_policy(tmp_path / name)
+
+
+def test_non_finite_arrays_in_a_file_are_refused(tmp_path: Path) -> None:
+    arrays = {"data": np.full((5, 4), np.nan), "limit": np.array(1.0)}
+    write_archive(tmp_path / "nan.npz", "policy", 1, arrays, {"policy": "ilo-gmr"})
+    with pytest.raises(FileFormatError, match="finite"):
+        load_policy(tmp_path / "nan.npz")
