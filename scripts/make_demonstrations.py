@@ -17,7 +17,7 @@ from signimit_envs.session import SessionPlan, compose_session
 
 def main(
     out: Path = Path("out/demonstrations"),
-    seed: int = 2,
+    seed: int = 35,
     signs: Path | None = None,
     signer: str | None = None,
     movements: Path | None = None,

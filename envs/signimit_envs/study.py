@@ -44,6 +44,12 @@ def session_outcome(result: SessionResult) -> SessionOutcome:
     return SessionOutcome(result.session.plan.seed, verdict, restart_grouping(result), obeyed_shares(result), stages)
 
 
+def repeats_paper(outcome: SessionOutcome) -> bool:
+    """Tell whether a session went as the paper's: everything understood and obeyed, 50 of 51 groupings right."""
+    everything = outcome.verdict.all_right and not outcome.stages
+    return everything and 51 * outcome.restarts.count >= 50 * outcome.restarts.total
+
+
 def study_shares(outcomes: Sequence[SessionOutcome]) -> dict[str, Share]:
     """Count over all sessions."""
     verdicts = [o.verdict for o in outcomes]
@@ -62,6 +68,8 @@ def study_shares(outcomes: Sequence[SessionOutcome]) -> dict[str, Share]:
 def study_table(outcomes: Sequence[SessionOutcome]) -> str:
     """Say in lines what came out, and which stages failed in which sessions."""
     lines = [f"{name:26s} {share}" for name, share in study_shares(outcomes).items()]
+    alike = ", ".join(str(o.seed) for o in outcomes if repeats_paper(o)) or "none"
+    lines.append(f"sessions that repeat the paper's result: {alike}")
     for stage in STAGES:
         failed = Counter({o.seed: o.stages.count(stage) for o in outcomes if stage in o.stages})
         if failed:

@@ -18,7 +18,7 @@ from signimit.learning import learn
 from signimit_envs.casting import Cast, cast_people
 from signimit_envs.report import inference_lines, session_report, session_table, truth_text
 from signimit_envs.session import Command, SessionPlan, SessionResult, compose_session, run_session
-from signimit_envs.study import session_outcome, study_report, study_table
+from signimit_envs.study import repeats_paper, session_outcome, study_report, study_table
 from signimit_envs.verdicts import (
     Share,
     failing_stage,
@@ -172,6 +172,14 @@ def test_the_truth_is_told_demonstration_by_demonstration(result: SessionResult)
     assert truth["word order"] == {"focus": 0, "movement": 1}
     names = [entry["movement"] for entry in truth["demonstrations"]]
     assert names == list(result.session.truth.movement_names)
+
+
+def test_a_session_repeats_the_paper_if_all_is_obeyed_and_50_of_51_groupings_are_right(result: SessionResult) -> None:
+    outcome = session_outcome(result)._replace(stages=(), restarts=Share(50, 51))
+    assert repeats_paper(outcome)
+    assert not repeats_paper(outcome._replace(restarts=Share(49, 51)))
+    assert not repeats_paper(outcome._replace(stages=("sign",)))
+    assert not repeats_paper(outcome._replace(verdict=outcome.verdict._replace(word_order=False)))
 
 
 def test_a_study_adds_sessions_up_and_names_what_failed(result: SessionResult) -> None:
