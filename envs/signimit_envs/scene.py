@@ -20,8 +20,8 @@ for _array in (WORKSPACE, TABLE):
     _array.setflags(write=False)
 
 _EXTRA_OBJECTS = (  # name of the colour, rgba, geom type, size, height of its middle
-    ("violet", (0.50, 0.30, 0.68, 1), mujoco.mjtGeom.mjGEOM_ELLIPSOID, (0.036, 0.036, 0.046), 0.0),
-    ("orange", (0.88, 0.46, 0.10, 1), mujoco.mjtGeom.mjGEOM_BOX, (0.046, 0.017, 0.022), 0.022),
+    ("violet", (0.50, 0.30, 0.68, 1), mujoco.mjtGeom.mjGEOM_ELLIPSOID, (0.042, 0.042, 0.046), 0.0),
+    ("orange", (0.88, 0.46, 0.10, 1), mujoco.mjtGeom.mjGEOM_BOX, (0.050, 0.020, 0.022), 0.022),
     ("teal", (0.10, 0.56, 0.58, 1), mujoco.mjtGeom.mjGEOM_SPHERE, (0.022, 0.0, 0.0), 0.022),
 )
 OBJECT_NAMES = ("red", "green", "blue", *(name for name, *_ in _EXTRA_OBJECTS))
