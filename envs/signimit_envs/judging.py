@@ -19,7 +19,7 @@ from signimit.languages import Request
 
 WINDOW = 600  # samples of the past that count: 12 s
 _FIRST, _BETWEEN = 75, 25  # control steps until the first look, and between looks
-_NEAR = 1.3  # tolerances: beyond, with room for what a glance overlooks, no exact look is needed
+_ROOM = 1.3  # a glance rules out only what exceeds the tolerance by so much: it overlooks a little
 _COMPLEX = np.array([1.0, 1.0j])  # x and y to one number
 _THIN = 4  # one in so many points is enough for a glance
 
@@ -30,6 +30,7 @@ class PathRecord:
     def __init__(self) -> None:
         """Start empty."""
         self._buffer = np.empty((2 * WINDOW, 2))
+        self._complex = self._buffer.view(np.complex128)[:, 0]
         self._count = 0
 
     def clear(self) -> None:
@@ -49,6 +50,11 @@ class PathRecord:
         """Up to the last 600 positions, shape (T, 2), m; a view."""
         return self._buffer[max(0, self._count - WINDOW) : self._count]
 
+    @property
+    def latest_complex(self) -> NDArray[np.complex128]:
+        """The same as x + iy, shape (T,); a view."""
+        return self._complex[max(0, self._count - WINDOW) : self._count]
+
 
 class Judge:
     """Watches one episode at a time and says when the request is fulfilled.
@@ -62,7 +68,7 @@ class Judge:
         """Take the drawings that show each movement, in the object's frame, m."""
         self._templates = templates
         self._prepared = prepare_templates(templates)
-        self._thinned = [(d[0].points[::_THIN] @ _COMPLEX, d[0].half_size) for d in self._prepared]
+        self._sought, self._farthest = np.zeros(1, dtype=np.complex128), 0.0
         self._path = PathRecord()
         self._objects = np.zeros((0, 2))
         self._request = Request(0, 0)
@@ -72,6 +78,9 @@ class Judge:
     def start(self, request: Request, objects: NDArray[np.float64], hand: NDArray[np.float64]) -> None:
         """Begin a new episode."""
         self._request, self._objects = request, objects
+        drawing = self._prepared[request.movement][0]
+        self._sought = (drawing.points[:: 2 * _THIN] + objects[request.focus]) @ _COMPLEX
+        self._farthest = _ROOM * 2 * drawing.half_size * TOLERANCE
         self._path.clear()
         self._path.append(hand)
         self._next, self.performance = _FIRST, NOTHING
@@ -97,17 +106,15 @@ class Judge:
 
     def _requested_error(self) -> float:
         """Misfit of the path so far to what was asked for, infinite where a glance rules it out."""
+        if self._leaves_out_too_much():
+            return np.inf
         tail = settled_part(self._path.latest)
         if tail is None:
             return np.inf
-        tail = tail - self._objects[self._request.focus]
-        if _least_error(tail, self._thinned[self._request.movement]) > _NEAR * TOLERANCE:
-            return np.inf
-        return movement_error(tail, self._prepared[self._request.movement])
+        return movement_error(tail - self._objects[self._request.focus], self._prepared[self._request.movement])
 
-
-def _least_error(tail: NDArray[np.float64], drawing: tuple[NDArray[np.complex128], float]) -> float:
-    """Mean gaps there and back between one in so many points, in half sizes: the misfit without directions."""
-    points, half_size = drawing
-    gaps = np.abs((tail[::_THIN] @ _COMPLEX)[:, None] - points)
-    return float(gaps.min(axis=1).mean() + gaps.min(axis=0).mean()) / (2 * half_size)
+    def _leaves_out_too_much(self) -> bool:
+        """Whether the hand passed so far from what should have been drawn that nothing else matters."""
+        path = self._path.latest_complex
+        gaps = np.abs(path[len(path) // 3 :: _THIN, None] - self._sought)
+        return bool(gaps.min(axis=0).mean() > self._farthest)

@@ -118,6 +118,7 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         self._hand = self.data.site_xpos[self._hand_site, :2]
         self._ranges = self.model.jnt_range.tolist()
         self._warnings = self.data.warning.number  # a live view; mj_resetData clears it
+        self._speeds = np.full(3, MAX_JOINT_SPEED)
         self._camera = camera
         self._offscreen = OffscreenView(self.model, *size)
         self._window = WindowView(self.model) if render_mode == "human" else None
@@ -187,7 +188,7 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
             self._window.close()
 
     def _command(self, action: NDArray[np.float64]) -> JointCommand:
-        return JointCommand(MAX_JOINT_SPEED * action, 0.0)
+        return JointCommand(np.multiply(action, self._speeds), 0.0)
 
     def _checked(self, action: ArrayLike) -> NDArray[np.float64]:
         try:
