@@ -27,6 +27,7 @@ SURE = 0.05  # half sizes; a hand so close to the expected place is taken to be 
 NEAR = 0.2  # half sizes; closer, the phase moves on and the demonstrators' velocity counts
 LOST = 0.4  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
+ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
 BLOCK = 512  # hands at once: their table of gaps stays in the cache
 
 
@@ -90,8 +91,9 @@ class PathFollowingPolicy(StoredPolicy):
         if nodes is not None and np.shape(nodes) != hands.shape[:-1]:
             raise InvalidInputError("hand", f"hands of the state's shape {np.shape(nodes)}", f"{hands.shape}")
         if hands.ndim == 1:
-            return self._step_one(None if nodes is None else int(nodes), hands)
-        nodes = self._nearest(hands) if nodes is None else self._observe(np.asarray(nodes), hands)
+            seen = self._enter(hands[None])[0] if nodes is None else nodes
+            return self._step_one(int(seen), hands)
+        nodes = self._enter(hands) if nodes is None else self._observe(np.asarray(nodes), hands)
         velocity, near = self._velocity(nodes, hands)
         onward = np.where(near, self._onward(nodes), nodes)
         onward.setflags(write=False)
@@ -101,15 +103,13 @@ class PathFollowingPolicy(StoredPolicy):
         """Return velocities, shape of ``hand``, m/s, from the nearest place of the course, whatever was before."""
         hands = check_hand(hand)
         if hands.ndim == 1:
-            return self._step_one(None, hands)[1]
+            return self._step_one(int(self._nearest(hands[None])[0]), hands)[1]
         return self._velocity(self._nearest(hands), hands)[0]
 
-    def _step_one(self, expected: int | None, hand: Array) -> tuple[PhaseState, Array]:
+    def _step_one(self, expected: int, hand: Array) -> tuple[PhaseState, Array]:
         """Do for one hand what `_observe` and `_velocity` do for many: plain numbers are several times faster here."""
         x, y = hand.tolist()
-        node = None if expected is None else self._observe_one(expected, x, y)
-        if node is None:
-            node = int(self._nearest(hand[None])[0])
+        node = self._observe_one(expected, x, y)
         px, py, vx, vy = self._rows[node]
         gap_x, gap_y = px - x, py - y
         distance = math.hypot(gap_x, gap_y)
@@ -118,14 +118,14 @@ class PathFollowingPolicy(StoredPolicy):
         onward = self._onward_one(node) if follow > 0.5 else node
         return PhaseState(onward), np.array([follow * vx + pull * gap_x, follow * vy + pull * gap_y])
 
-    def _observe_one(self, expected: int, x: float, y: float) -> int | None:
-        """Return the node that a hand is at, None if it is lost."""
+    def _observe_one(self, expected: int, x: float, y: float) -> int:
+        """Return the node that a hand is at: the expected one, or one near it, or anywhere if the hand is lost."""
         px, py, _, _ = self._rows[expected]
         distance = math.hypot(px - x, py - y)
         if distance <= SURE * self.scale:
             return expected
         if distance > LOST * self.scale:
-            return None
+            return int(self._nearest(np.array([[x, y]]), self._entry if expected < self._entry else None)[0])
         size, rows = len(self._rows), self._rows
         around = [expected + offset for offset in _OFFSETS.tolist()]
         around = [n % size for n in around] if self.closed else [min(max(n, 0), size - 1) for n in around]
@@ -138,15 +138,30 @@ class PathFollowingPolicy(StoredPolicy):
         """Return the node one control period later."""
         return (nodes + 1) % len(self.course) if self.closed else np.minimum(nodes + 1, len(self.course) - 1)
 
-    def _nearest(self, hands: Array) -> NDArray[np.int64]:
-        """Return the nearest node of all: the least of |p|² / 2 - p · x, one product and one search a block."""
+    def _enter(self, hands: Array) -> NDArray[np.int64]:
+        """Return the node where hands begin: the nearest, but a way to a goal is entered in its first part."""
+        nodes = self._nearest(hands)
+        if not self.closed:
+            gap = self.course[nodes] - hands
+            away = np.flatnonzero(np.einsum("bd,bd->b", gap, gap) > (LOST * self.scale) ** 2)
+            nodes[away] = self._nearest(hands[away], self._entry)
+        return nodes
+
+    @property
+    def _entry(self) -> int:
+        """Number of nodes at which the course may be entered from afar."""
+        return len(self._rows) if self.closed else max(int(ENTRY * len(self._rows)), 1)
+
+    def _nearest(self, hands: Array, among: int | None = None) -> NDArray[np.int64]:
+        """Return the nearest of the first so many nodes: the least of |p|² / 2 - p · x, by a product and a search."""
+        plane = self._plane[:, :among]
         lifted = np.ones((len(hands), 3), dtype=np.float32)
         lifted[:, :2] = hands
         nodes = np.empty(len(hands), dtype=np.int64)
-        table = np.empty((min(BLOCK, len(hands)), len(self.course)), dtype=np.float32)
+        table = np.empty((min(BLOCK, len(hands)), plane.shape[1]), dtype=np.float32)
         for i in range(0, len(hands), BLOCK):
             part = lifted[i : i + BLOCK]
-            np.dot(part, self._plane, out=table[: len(part)]).argmin(axis=1, out=nodes[i : i + BLOCK])
+            np.dot(part, plane, out=table[: len(part)]).argmin(axis=1, out=nodes[i : i + BLOCK])
         return nodes
 
     def _observe(self, expected: NDArray[np.int64], hands: Array) -> NDArray[np.int64]:
@@ -157,9 +172,17 @@ class PathFollowingPolicy(StoredPolicy):
         late = np.flatnonzero((squares > (SURE * self.scale) ** 2) & (squares <= (LOST * self.scale) ** 2))
         nodes = expected.copy()
         if len(lost):
-            nodes[lost] = self._nearest(hands[lost])
+            nodes[lost] = self._find(expected[lost], hands[lost])
         if len(late):
             nodes[late] = self._nearest_around(expected[late], hands[late])
+        return nodes
+
+    def _find(self, expected: NDArray[np.int64], hands: Array) -> NDArray[np.int64]:
+        """Return the nearest node to lost hands; of those still on their way to a goal's course, in its first part."""
+        nodes = self._nearest(hands)
+        if not self.closed:
+            coming = np.flatnonzero(expected < self._entry)
+            nodes[coming] = self._nearest(hands[coming], self._entry)
         return nodes
 
     def _nearest_around(self, expected: NDArray[np.int64], hands: Array) -> NDArray[np.int64]:

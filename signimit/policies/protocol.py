@@ -89,7 +89,13 @@ def check_hand(hand: ArrayLike) -> Array:
     Raises:
         InvalidInputError: If the shape is another, or a hand is not finite or off every table.
     """
-    array = np.asarray(hand, dtype=np.float64)
+    try:
+        numbers = np.asarray(hand)
+    except ValueError:
+        raise InvalidInputError("hand", "shape (2,) or (B, 2)", f"a ragged {type(hand).__name__}") from None
+    if numbers.dtype.kind not in "fiub":
+        raise InvalidInputError("hand", "numbers of shape (2,) or (B, 2)", f"{numbers.dtype} values")
+    array = numbers.astype(np.float64, copy=False)
     if array.shape == (2,):
         near = -FARTHEST < array[0] < FARTHEST and -FARTHEST < array[1] < FARTHEST
     elif array.ndim == 2 and array.shape[1] == 2:

@@ -17,12 +17,11 @@ def time_course(course: Course) -> Array:
     """Lay a course out in time: positions one control period apart, at the mean speed shown at each place."""
     line = np.concatenate([course.points, course.points[:1]]) if course.closed else course.points
     steps = np.hypot(*np.diff(line, axis=0).T)
-    durations = _smooth(course.durations, course.closed)[: len(steps)]
+    durations = course.durations[: len(steps)]
     shown = durations > 0
     mean = steps[shown].sum() / durations[shown].sum() if shown.any() else course.reach_speed
-    durations = np.clip(
-        np.where(shown, durations, steps / mean), steps / (FASTEST * mean), steps / (SLOWEST * mean)
-    )
+    durations = _smooth(np.where(shown, durations, steps / mean), course.closed)
+    durations = np.clip(durations, steps / (FASTEST * mean), steps / (SLOWEST * mean))
     clock = np.concatenate([[0.0], np.cumsum(durations)])
     count = max(round(clock[-1] / CONTROL_PERIOD), 2)
     even = np.linspace(0.0, clock[-1], count + 1)

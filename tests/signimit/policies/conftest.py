@@ -31,7 +31,7 @@ def compose(label: str, count: int = 4, seed: int = 0) -> Shown:
     strokes = synthetic_library([label], samples=2 * count, rng=rng)
     drawn = [compose_loops(language, strokes, 0, rng) for _ in range(count)]
     paths = [compose_path(rng.uniform(-TABLE / 2, TABLE / 2), loops) for loops in drawn]
-    times = [0.02 * np.arange(len(path)) for path in paths]
+    times: list[Array] = [np.arange(len(path)) / 50 for path in paths]
     return Shown(paths, times, [loop for loops in drawn for loop in loops])
 
 

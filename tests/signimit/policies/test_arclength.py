@@ -13,7 +13,7 @@ SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
 def test_the_way_along_a_square() -> None:
-    np.testing.assert_allclose(arc_lengths(SQUARE), [0, 1, 2, 3])
+    np.testing.assert_allclose(arc_lengths(SQUARE), [0.0, 1.0, 2.0, 3.0])
 
 
 def test_a_closed_course_is_spaced_all_the_way_round() -> None:

@@ -31,9 +31,13 @@ def drive(policy: Policy, hands: NDArray[np.float64], steps: int) -> NDArray[np.
     return np.array(path)
 
 
+def learned(shown: Shown, kind: str = DEFAULT_POLICY) -> Policy:
+    return make_policy(shown.paths, shown.times, kind)
+
+
 @pytest.fixture(scope="module")
 def policies(shown: Compose) -> dict[str, Policy]:
-    return {kind: make_policy(*shown("triangle up")[:2], kind=kind) for kind in POLICY_KINDS}
+    return {kind: learned(shown("triangle up"), kind) for kind in POLICY_KINDS}
 
 
 def test_the_default_is_one_of_the_kinds_and_keeps_a_state(shown: Compose) -> None:
@@ -113,7 +117,7 @@ def test_a_policy_cannot_be_changed(kind: str, policies: dict[str, Policy]) -> N
 @pytest.mark.parametrize("kind", POLICY_KINDS)
 @pytest.mark.parametrize("count", [1, 2, 30])
 def test_any_number_of_demonstrations_will_do(kind: str, count: int, shown: Compose) -> None:
-    policy = make_policy(*shown("circle", count)[:2], kind=kind)
+    policy = learned(shown("circle", count), kind)
     assert np.isfinite(drive(policy, HANDS, 50)).all()
 
 
@@ -148,7 +152,7 @@ def test_a_state_belongs_to_hands_of_its_shape(kind: str, policies: dict[str, Po
 
 def test_an_unknown_kind_is_refused_with_the_known_ones(shown: Compose) -> None:
     with pytest.raises(UnknownNameError, match="path-following"):
-        make_policy(*shown("circle", 1)[:2], kind="magic")
+        learned(shown("circle", 1), "magic")
 
 
 @pytest.mark.parametrize(
