@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.policies import Policy
+from signimit.policies.protocol import check_hand
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +26,7 @@ class TablePolicy:
 
     def __call__(self, hand: ArrayLike) -> NDArray[np.float64]:
         """Return the velocity, m/s, of hands of shape (2,) or (B, 2), m, table frame."""
-        return self.policy(np.asarray(hand, dtype=np.float64) - self.origin)
+        return self.policy(check_hand(hand) - self.origin)
 
 
 class StatefulTablePolicy(TablePolicy):
@@ -37,8 +38,7 @@ class StatefulTablePolicy(TablePolicy):
 
     def step(self, state: Any, hand: ArrayLike) -> tuple[Any, NDArray[np.float64]]:
         """Return the next state, and the velocity, m/s, of hands in the table frame."""
-        inner = np.asarray(hand, dtype=np.float64) - self.origin
-        state, velocity = self.policy.step(state, inner)  # type: ignore[attr-defined]
+        state, velocity = self.policy.step(state, check_hand(hand) - self.origin)  # type: ignore[attr-defined]
         return state, velocity
 
 

@@ -72,7 +72,7 @@ def check_demonstrations(paths: Sequence[ArrayLike], times: Sequence[ArrayLike])
     strokes = []
     for i, (points, stamps) in enumerate(zip(paths, times, strict=True)):
         try:
-            stroke = Stroke(np.asarray(points, dtype=np.float64), np.asarray(stamps, dtype=np.float64))
+            stroke = Stroke(np.asarray(points), np.asarray(stamps))
             if np.abs(stroke.points).max() > FARTHEST:
                 raise InvalidInputError("points", f"positions within {FARTHEST:g} m", "larger ones")
             strokes.append(stroke)
