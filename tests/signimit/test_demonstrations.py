@@ -118,6 +118,14 @@ def test_a_set_comes_back_from_its_file(demonstrations: DemonstrationSet, tmp_pa
     assert (tmp_path / "again.npz").read_bytes() == (tmp_path / "d.npz").read_bytes()
 
 
+def test_a_file_that_version_0_1_wrote_is_read() -> None:
+    (only,) = DemonstrationSet.load(Path(__file__).parent / "data" / "demonstrations-1.npz")
+    assert [s.tolist() for s in only.signs] == [[[0, 0], [0, 1]]]
+    assert only.objects.tolist() == [[1, 2]]
+    assert only.hand.tolist() == [[0, 0], [0.5, 0], [0.5, 0.25]]
+    assert only.times.tolist() == [0, 0.5, 1]
+
+
 def test_the_file_holds_nothing_but_what_may_be_seen(demonstrations: DemonstrationSet) -> None:
     assert sorted(demonstrations.to_arrays()) == ["hand", "hand_offsets", "objects", "sign_offsets", "signs", "times"]
 
