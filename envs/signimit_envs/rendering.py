@@ -14,6 +14,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit import InvalidInputError
 from signimit_envs.exceptions import RenderingError
 
 INSTALL = "On Debian or Ubuntu: apt-get install -y libosmesa6 (or libegl1 libgl1-mesa-dri)."
@@ -85,7 +86,16 @@ class OffscreenView:
     """Draws frames into arrays. OpenGL is looked for at the first frame, not before."""
 
     def __init__(self, model: mujoco.MjModel, width: int = 480, height: int = 480) -> None:
-        """Remember what to draw, and how large, in pixels (at most 1280 each way)."""
+        """Remember what to draw, and how large, in pixels.
+
+        Raises:
+            InvalidInputError: If that is nothing, or more than the model allows (1280 each way).
+        """
+        most = (int(model.vis.global_.offwidth), int(model.vis.global_.offheight))
+        if not (0 < width <= most[0] and 0 < height <= most[1]):
+            raise InvalidInputError(
+                "size of frames", f"1 to {most[0]} by 1 to {most[1]} pixels", f"{width} by {height}"
+            )
         self._model, self._width, self._height = model, width, height
         self._renderer: mujoco.Renderer | None = None
         self._free: Callable[[], object] | None = None

@@ -219,6 +219,7 @@ def test_closing_twice_is_allowed(env: gym.Env[Any, Any]) -> None:
         ({"movements": ()}, "movements: expected 1 to 7 labels, found 0"),
         ({"movements": ("dance",)}, "Unknown movement 'dance'; known are circle"),
         ({"camera": "left"}, "Unknown camera 'left'; known are perspective, top"),
+        ({"size": (4000, 480)}, "size of frames: expected 1 to 1280 by 1 to 1280 pixels, found 4000 by 480"),
         ({"render_mode": "ansi"}, "Unknown render mode 'ansi'; known are rgb_array, human"),
     ],
 )
