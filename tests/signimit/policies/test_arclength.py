@@ -13,12 +13,12 @@ SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
 def test_the_way_along_a_square() -> None:
-    np.testing.assert_allclose(arc_lengths(SQUARE), [0.0, 1.0, 2.0, 3.0])
+    np.testing.assert_allclose(arc_lengths(SQUARE), np.arange(4.0))
 
 
 def test_a_closed_course_is_spaced_all_the_way_round() -> None:
     course = space_course(SQUARE, 0.5, closed=True)
-    expected = [[0, 0], [0.5, 0], [1, 0], [1, 0.5], [1, 1], [0.5, 1], [0, 1], [0, 0.5]]
+    expected = np.array([[0, 0], [0.5, 0], [1, 0], [1, 0.5], [1, 1], [0.5, 1], [0, 1], [0, 0.5]])
     np.testing.assert_allclose(course, expected, atol=1e-12)
 
 
