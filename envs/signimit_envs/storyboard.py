@@ -23,7 +23,7 @@ PAUSE_FRAMES = 12
 CARD_FRAMES = 5 * FRAME_RATE
 HASTE = 8  # how much faster all demonstrations but the first go by
 ANSWER_SECONDS = 6.0
-PARKED = np.array([-2.2, 2.2, 1.9])  # rad, joint angles of an arm that only watches
+PARKED = np.array([-1.9, 2.4, 2.2])  # rad, joint angles of an arm that only watches
 NOWHERE = np.zeros((0, 2))
 for _array in (PARKED, NOWHERE):
     _array.setflags(write=False)
