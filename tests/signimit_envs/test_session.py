@@ -125,7 +125,7 @@ def test_the_first_restart_is_the_sessions_own_grouping(result: SessionResult) -
     assert restart_grouping(result, restarts=5).total == 5
 
 
-def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult) -> None:
+def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult, monkeypatch: pytest.MonkeyPatch) -> None:
     reproduction = result.reproductions[0]
     model, failed = result.model, reproduction._replace(performance=NOTHING)
     understood, answer = model.understanding, reproduction.answer
@@ -142,6 +142,8 @@ def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult) -
     assert stage(word_order=order) == "word order"
     assert failing_stage(result, failed._replace(answer=answer._replace(focus=(answer.focus + 1) % 3))) == "sign"
     assert failing_stage(result, failed) == "physics"  # a point obeys, so that only the arm is left
+    monkeypatch.setattr("signimit_envs.verdicts.ideal_path", lambda policy, hand, seconds: np.zeros((100, 2)))
+    assert failing_stage(result, failed) == "policy"
 
 
 def test_an_ideal_hand_integrates_the_policy() -> None:
