@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.policies.arclength import SpacedPath, interpolate
+from signimit.policies.arclength import SpacedPath, arc_lengths
 from signimit.policies.protocol import Array
 
 UNLIKE = 1.5  # passes further from the median pass than so many typical distances count less
@@ -23,11 +23,11 @@ class Pass(NamedTuple):
 
     Attributes:
         points: Position at each node, shape (M, 2), m.
-        durations: Time from each node to the next, shape (M,), s.
+        speeds: Speed from each node to the next, shape (M,), m/s.
     """
 
     points: Array
-    durations: Array
+    speeds: Array
 
 
 class MeanPass(NamedTuple):
@@ -35,12 +35,12 @@ class MeanPass(NamedTuple):
 
     Attributes:
         points: Mean position at each node, shape (M, 2), m.
-        durations: Mean time from each node to the next, shape (M,), s; zero where nobody showed it.
+        speeds: Mean speed from each node to the next, shape (M,), m/s; zero where nobody showed it.
         support: Weight of the passes through each node, shape (M,).
     """
 
     points: Array
-    durations: Array
+    speeds: Array
     support: Array
 
 
@@ -55,42 +55,51 @@ def cut_passes(
         nodes: Number of nodes M of the course.
         shortest: Share of a round that makes a pass; less is left out.
     """
-    drawn = phases >= 0
-    first, points, stamps = _by_phase(phases[drawn], path.points[drawn], path.times[drawn])
+    first, points, pace = _by_phase(path, phases)
     last = first + len(points) - 1
     for start in range(first - first % nodes, last + 1, nodes):
         low, high = max(first, start), min(last, start + nodes - 1)
         if high - low + 1 < shortest * nodes:
             continue
-        position, duration = np.full((nodes, 2), np.nan), np.full(nodes, np.nan)
+        position, speeds = np.full((nodes, 2), np.nan), np.full(nodes, np.nan)
         position[low - start : high - start + 1] = points[low - first : high - first + 1]
-        steps = np.diff(stamps[low - first : high - first + 2])  # one stamp beyond, where there is one
-        duration[low - start : low - start + len(steps)] = steps
-        yield Pass(position, duration)
+        shown = pace[low - first : high - first + 1]  # one less at the end of the drawing
+        speeds[low - start : low - start + len(shown)] = shown
+        yield Pass(position, speeds)
 
 
-def _by_phase(phases: NDArray[np.int64], points: Array, stamps: Array) -> tuple[int, Array, Array]:
-    """Return the first phase, and position and time at it and every phase after: means and interpolations."""
-    first = int(phases[0])
-    count = np.bincount(phases - first)
+def _by_phase(path: SpacedPath, phases: NDArray[np.int64]) -> tuple[int, Array, Array]:
+    """Return the first phase, positions at it and every phase after, and the speed from each to the next."""
+    drawn = phases >= 0
+    first, offset = int(phases[drawn][0]), phases[drawn] - phases[drawn][0]
+    count = np.bincount(offset)
     known = np.flatnonzero(count)
-    sums = [np.bincount(phases - first, values)[known] / count[known] for values in (*points.T, stamps)]
     every, at = np.arange(len(count), dtype=np.float64), known.astype(np.float64)
-    return first, interpolate(every, at, np.stack(sums[:2], axis=1)), np.interp(every, at, sums[2])
+    values = (*path.points[drawn].T, path.times[drawn], arc_lengths(path.points)[drawn])
+    x, y, stamps, way = (np.interp(every, at, np.bincount(offset, v)[known] / count[known]) for v in values)
+    return first, np.stack([x, y], axis=1), np.diff(_smooth(way)) / np.diff(_smooth(stamps))
+
+
+def _smooth(rising: Array) -> Array:
+    """Average over up to five nodes: the grid's noise goes, the slowing at corners stays."""
+    width = min(2, len(rising) - 1)
+    padded = np.pad(rising, width, mode="reflect", reflect_type="odd") if width else rising
+    smooth: Array = np.convolve(padded, np.full(2 * width + 1, 1 / (2 * width + 1)), mode="valid")
+    return smooth
 
 
 def mean_pass(passes: Sequence[Pass]) -> MeanPass:
     """Average passes node by node, an outlying pass with less weight (Huber's, squared)."""
     points = np.array([p.points for p in passes])
-    durations = np.array([p.durations for p in passes])
-    seen, timed = np.isfinite(points[..., 0]), np.isfinite(durations)
+    speeds = np.array([p.speeds for p in passes])
+    seen, timed = np.isfinite(points[..., 0]), np.isfinite(speeds)
     weights = _pass_weights(points, seen)[:, None]
     support = (weights * seen).sum(axis=0)
     total = (weights[..., None] * np.where(seen[..., None], points, 0.0)).sum(axis=0)
-    spent = (weights * np.where(timed, durations, 0.0)).sum(axis=0)
+    paced = (weights * np.where(timed, speeds, 0.0)).sum(axis=0)
     tiny = np.finfo(np.float64).tiny
     mean = total / np.maximum(support, tiny)[:, None]
-    return MeanPass(mean, spent / np.maximum((weights * timed).sum(axis=0), tiny), support)
+    return MeanPass(mean, paced / np.maximum((weights * timed).sum(axis=0), tiny), support)
 
 
 def _pass_weights(points: Array, seen: NDArray[np.bool_]) -> Array:

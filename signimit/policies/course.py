@@ -38,14 +38,14 @@ class Course(NamedTuple):
 
     Attributes:
         points: Nodes at equal steps of length, shape (M, 2), m.
-        durations: Time from each node to the next, shape (M,), s; of an open course's last node meaningless.
+        speeds: Mean speed from each node to the next, shape (M,), m/s; zero where nobody showed it.
         closed: Whether the movement goes round and round, or ends at the last node.
         scale: Half size of the movement, m.
         reach_speed: Mean speed of the demonstrators on their way to the course, m/s.
     """
 
     points: Array
-    durations: Array
+    speeds: Array
     closed: bool
     scale: float
     reach_speed: float
@@ -121,7 +121,7 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
     if closed:
         kept = without_overshoot(mean.points, scale)
         mean = MeanPass(*(values[kept] for values in mean))
-    return Course(mean.points, mean.durations, closed, scale, _reach_speed(paths, alignments))
+    return Course(mean.points, mean.speeds, closed, scale, _reach_speed(paths, alignments))
 
 
 def _shared_part(mean: MeanPass, fewest: float) -> MeanPass:

@@ -17,12 +17,10 @@ def time_course(course: Course) -> Array:
     """Lay a course out in time: positions one control period apart, at the mean speed shown at each place."""
     line = np.concatenate([course.points, course.points[:1]]) if course.closed else course.points
     steps = np.hypot(*np.diff(line, axis=0).T)
-    durations = course.durations[: len(steps)]
-    shown = durations > 0
-    mean = steps[shown].sum() / durations[shown].sum() if shown.any() else course.reach_speed
-    durations = _smooth(np.where(shown, durations, steps / mean), course.closed)
-    durations = np.clip(durations, steps / (FASTEST * mean), steps / (SLOWEST * mean))
-    clock = np.concatenate([[0.0], np.cumsum(durations)])
+    shown = course.speeds[: len(steps)]
+    mean = shown[shown > 0].mean() if (shown > 0).any() else course.reach_speed
+    speeds = np.clip(np.where(shown > 0, shown, mean), SLOWEST * mean, FASTEST * mean)
+    clock = np.concatenate([[0.0], np.cumsum(steps / speeds)])
     count = max(round(clock[-1] / CONTROL_PERIOD), 2)
     even = np.linspace(0.0, clock[-1], count + 1)
     if not course.closed:
@@ -30,10 +28,3 @@ def time_course(course: Course) -> Array:
     centre = (line.min(axis=0) + line.max(axis=0)) / 2
     nodes: Array = centre + CORNER_ALLOWANCE * (interpolate(even[:-1], clock, line) - centre)
     return nodes
-
-
-def _smooth(durations: Array, closed: bool) -> Array:
-    """Average over five nodes: less is the grid's noise, more would blur the slowing at corners."""
-    padded = np.pad(durations, 2, mode="wrap" if closed else "edge")
-    smooth: Array = np.convolve(padded, np.full(5, 0.2), mode="valid")
-    return smooth

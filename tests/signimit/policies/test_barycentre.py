@@ -13,15 +13,15 @@ def test_two_rounds_are_cut_where_the_phase_begins_anew() -> None:
     first, second = cut_passes(path, np.array([-1, 1, 2, 3, 4, 5, -1]), 3)
     np.testing.assert_array_equal(first.points[:, 0], [np.nan, 1, 2])
     np.testing.assert_array_equal(second.points[:, 0], [3, 4, 5])
-    np.testing.assert_array_equal(first.durations, [np.nan, 1, 1])
-    np.testing.assert_array_equal(second.durations, [1, 1, np.nan])
+    np.testing.assert_allclose(first.speeds, [np.nan, 1, 1])
+    np.testing.assert_allclose(second.speeds, [1, 1, np.nan])
 
 
 def test_skipped_nodes_are_interpolated_and_repeated_ones_averaged() -> None:
     path = SpacedPath(np.array([[0.0, 0], [2, 0], [4, 0], [6, 0]]), np.array([0.0, 1, 2, 3]))
     (one,) = cut_passes(path, np.array([0, 0, 2, 3]), 4)
     np.testing.assert_allclose(one.points[:, 0], [1, 2.5, 4, 6])
-    np.testing.assert_allclose(one.durations[:3], [0.75, 0.75, 1])
+    np.testing.assert_allclose(one.speeds[:3], 2)
 
 
 def test_too_short_a_pass_is_no_pass() -> None:
@@ -35,7 +35,7 @@ def test_the_mean_of_like_passes_is_their_mean() -> None:
     passes = [Pass(p, rng.uniform(1, 2, 5)) for p in points]
     mean = mean_pass(passes)
     np.testing.assert_allclose(mean.points, 1.0, atol=1e-12)
-    np.testing.assert_allclose(mean.durations, np.mean([p.durations for p in passes], axis=0), rtol=0.01)
+    np.testing.assert_allclose(mean.speeds, np.mean([p.speeds for p in passes], axis=0), rtol=0.01)
 
 
 def test_one_bad_pass_of_four_hardly_counts() -> None:

@@ -5,37 +5,34 @@ from __future__ import annotations
 import numpy as np
 
 from signimit.policies.course import Course
-from signimit.policies.timing import CORNER_ALLOWANCE, SLOWEST, time_course
+from signimit.policies.timing import CORNER_ALLOWANCE, time_course
 
 LINE = np.column_stack([np.arange(11) / 10, np.zeros(11)])
 
 
 def test_an_even_course_gets_even_nodes_a_control_period_apart() -> None:
-    nodes = time_course(Course(LINE, np.full(11, 0.1), False, 0.5, 1.0))
+    nodes = time_course(Course(LINE, np.ones(11), False, 0.5, 1.0))
     np.testing.assert_allclose(nodes[:, 0], np.linspace(0, 1, 51), atol=1e-12)
 
 
 def test_a_slow_part_gets_more_nodes() -> None:
-    durations = np.where(np.arange(11) < 5, 0.1, 0.3)
-    nodes = time_course(Course(LINE, durations, False, 0.5, 1.0))
+    nodes = time_course(Course(LINE, np.where(np.arange(11) < 5, 1.5, 0.5), False, 0.5, 1.0))
     steps = np.diff(nodes[:, 0])
     np.testing.assert_allclose(steps[:10].mean() / steps[-10:].mean(), 3, rtol=0.05)
 
 
-def test_a_long_pause_is_shortened() -> None:
-    durations = np.full(11, 0.1)
-    durations[5] = 100.0
-    nodes = time_course(Course(LINE, durations, False, 0.5, 1.0))
-    unhurried = durations.sum() / 10  # s for the way between two nodes at the mean speed
-    assert len(nodes) * 0.02 < 6 * unhurried / SLOWEST
-    assert np.hypot(*np.diff(nodes, axis=0).T).min() > 0
+def test_a_pause_is_shortened_and_a_glitch_slowed() -> None:
+    for glitch in (1e-9, 1e9):
+        speeds = np.ones(11)
+        speeds[5] = glitch
+        nodes = time_course(Course(LINE, speeds, False, 0.5, 1.0))
+        assert len(nodes) * 0.02 < 3.0
+        assert np.hypot(*np.diff(nodes, axis=0).T).min() > 0
 
 
-def test_time_that_nobody_showed_is_that_of_the_mean_speed() -> None:
-    durations = np.where(np.arange(11) < 6, 0.1, 0.0)
-    nodes = time_course(Course(LINE, durations, False, 0.5, 1.0))
-    assert np.isfinite(nodes).all()
-    assert 0.9 < len(nodes) * 0.02 < 1.5
+def test_a_speed_that_nobody_showed_is_the_mean_speed() -> None:
+    nodes = time_course(Course(LINE, np.where(np.arange(11) < 6, 1.0, 0.0), False, 0.5, 1.0))
+    np.testing.assert_allclose(nodes[:, 0], np.linspace(0, 1, 51), atol=1e-12)
 
 
 def test_a_closed_course_is_grown_about_its_middle_by_the_allowance() -> None:
