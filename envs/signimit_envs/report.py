@@ -13,7 +13,14 @@ from signimit.languages import Request
 from signimit.summary import object_name
 from signimit_envs.casting import Cast
 from signimit_envs.session import Reproduction, Session, SessionResult
-from signimit_envs.verdicts import Share, failing_stage, judge_inference, obeyed_shares, restart_grouping
+from signimit_envs.verdicts import (
+    Share,
+    algorithm_reading,
+    failing_stage,
+    judge_inference,
+    obeyed_shares,
+    restart_grouping,
+)
 
 FORMAT = 1
 PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
@@ -35,6 +42,7 @@ def session_report(result: SessionResult, cast: Cast) -> dict[str, Any]:
             "focus right": verdict.focus,
             "word order right": verdict.word_order,
             "demonstrations with the right focus": share_entry(verdict.foci_right),
+            "reading of Algorithm 1": algorithm_reading(result),
             "grouping restarts right": share_entry(restart_grouping(result)),
         },
         "obeyed": {name: share_entry(share) for name, share in obeyed_shares(result).items()},
@@ -61,7 +69,7 @@ def inference_lines(result: SessionResult) -> str:
             f"grouping: {_word(verdict.grouping)}",
             f"focus: {_word(verdict.focus)}, {verdict.foci_right.count} of {verdict.foci_right.total} demonstrations",
             f"word order: {_word(verdict.word_order)}",
-            f"Algorithm 1 from other initial memberships: right in {restart_grouping(result)}",
+            f"Algorithm 1, {algorithm_reading(result)}, from other starts: right in {restart_grouping(result)}",
         ]
     )
 

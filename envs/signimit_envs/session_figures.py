@@ -11,7 +11,7 @@ from signimit import figures
 from signimit.grouping import group_movements
 from signimit.similarity import maximum_similarities, policy_similarities
 from signimit_envs.session import Reproduction, SessionResult
-from signimit_envs.verdicts import session_distances
+from signimit_envs.verdicts import algorithm_reading, session_distances
 
 DOTS_PER_INCH = 130
 
@@ -23,7 +23,7 @@ def write_figures(result: SessionResult, folder: Path) -> None:
     similarity = maximum_similarities(distances)
     history = model.diagnostics.get("history")
     if history is None:  # a method without Algorithm 1; show what the paper's would have done
-        history = group_movements(similarity, rng=result.session.plan.seed).history
+        history = group_movements(similarity, method=algorithm_reading(result), rng=result.session.plan.seed).history
     reproductions = by_request(result)
     drawn = {
         "figure4": figures.draw_demonstrations(result.session.demonstrations, model.labels, model.focus),

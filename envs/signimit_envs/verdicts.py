@@ -101,17 +101,22 @@ def obeyed_shares(result: SessionResult) -> dict[str, Share]:
     }
 
 
-def restart_grouping(result: SessionResult, method: str = "paper", restarts: int = RESTARTS) -> Share:
+def algorithm_reading(result: SessionResult) -> str:
+    """Return how Algorithm 1 is read: as the session's method does, as "paper" if that is without it."""
+    method = result.session.plan.method
+    return method if method in ("paper", "paper-literal") else "paper"
+
+
+def restart_grouping(result: SessionResult, restarts: int = RESTARTS) -> Share:
     """Run Algorithm 1 again and again on one similarity, from other initial memberships M_1.
 
     The paper did so 50 times besides its own run, and was right in 49 of them and in its own.
 
     Args:
-        result: A session; the first run has its seed, so it is the session's own if that used this method.
-        method: ``"paper"`` or ``"paper-literal"``.
+        result: A session; the first run is its own if its method uses Algorithm 1.
         restarts: How many runs.
     """
-    seed, truth = result.session.plan.seed, result.session.truth
+    seed, truth, method = result.session.plan.seed, result.session.truth, algorithm_reading(result)
     similarity = maximum_similarities(session_distances(result))
     rngs = [np.random.default_rng(seed), *np.random.default_rng([seed, 1]).spawn(restarts - 1)]
     return Share.of(
