@@ -37,7 +37,7 @@ def dtw_distance(a: ArrayLike, b: ArrayLike) -> float:
         if not len(stroke):
             raise InvalidInputError(name, "at least 1 point", "0")
     gaps = (first[:, None] - second[None]).transpose(2, 0, 1)
-    return float(_warp(np.hypot(*gaps)[..., None])[0])
+    return float(warped_totals(np.hypot(*gaps)[..., None])[0])
 
 
 def pairwise_dtw(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -56,11 +56,11 @@ def pairwise_dtw(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDA
     for start in range(0, len(first), rows):
         block = first[start : start + rows].transpose(2, 1, 0)[:, :, None, :, None]  # (2, T, 1, rows, 1)
         cost = np.hypot(block[0] - x, block[1] - y)
-        out[start : start + rows] = _warp(cost.reshape(*cost.shape[:2], -1)).reshape(-1, len(second))
+        out[start : start + rows] = warped_totals(cost.reshape(*cost.shape[:2], -1)).reshape(-1, len(second))
     return out
 
 
-def _warp(cost: NDArray[np.float64]) -> NDArray[np.float64]:
+def warped_totals(cost: NDArray[np.float64]) -> NDArray[np.float64]:
     """Accumulate local costs, shape (n, m, B), along anti-diagonals; return the totals, shape (B,)."""
     n, m, count = cost.shape
     cells = cost.reshape(n * m, count)  # cell (i, d - i) of diagonal d is row d + i (m - 1)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from signimit.exceptions import UnknownNameError
+from signimit.learners.joint import JointLearner as JointLearner
 from signimit.learners.paper import PaperLearner as PaperLearner
 from signimit.understanding import Learner
 
 LEARNERS: dict[str, Learner] = {
+    "joint": JointLearner(),
     "paper": PaperLearner(),
     "paper-literal": PaperLearner(grouping="paper-literal"),
 }
-DEFAULT_METHOD = "paper"
+DEFAULT_METHOD = "joint"
 
 
 def get_learner(method: str) -> Learner:

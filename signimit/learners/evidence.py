@@ -1,0 +1,86 @@
+"""What a distance says about two demonstrations meaning the same: calibrated log-likelihood ratios.
+
+The spreads below were measured on real people's strokes and are the same for everybody; only the typical distance of
+equals is learned anew in every session, because one person repeats themselves more closely than another.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, kw_only=True)
+class DistanceModel:
+    """How the logarithm of a distance is distributed among equals and among others.
+
+    Attributes:
+        equal_mean: Prior mean of the session's typical log distance of equals.
+        equal_mean_spread: Its prior standard deviation.
+        equal_spread: Standard deviation about it.
+        other_mean: Mean log distance of others.
+        other_spread: Standard deviation about that.
+        odd_share: Share of equals that look like others: a sign made in an unusual way, a drawing that went wrong.
+        chance_share: Share of others that look like equals.
+    """
+
+    equal_mean: float
+    equal_mean_spread: float
+    equal_spread: float
+    other_mean: float
+    other_spread: float
+    odd_share: float
+    chance_share: float = 0.01
+
+    def log_ratios(self, distances: NDArray[np.floating], equal_mean: float) -> NDArray[np.float64]:
+        """Compute log p(distance | equal) - log p(distance | other).
+
+        Below the typical distance of equals, and above that of others, the ratio stays what it is there: closer than
+        close is no less equal.
+
+        Args:
+            distances: Any shape, not negative.
+            equal_mean: The session's typical log distance of equals.
+
+        Returns:
+            The same shape, within log(odd_share) and -log(chance_share).
+        """
+        x = np.clip(np.log(np.maximum(distances, 1e-9)), equal_mean, max(self.other_mean, equal_mean))
+        equal = _log_normal(x, equal_mean, self.equal_spread)
+        other = _log_normal(x, self.other_mean, self.other_spread)
+        return np.asarray(
+            np.logaddexp(np.log1p(-self.odd_share) + equal, np.log(self.odd_share) + other)
+            - np.logaddexp(np.log1p(-self.chance_share) + other, np.log(self.chance_share) + equal)
+        )
+
+    def posterior_mean(self, distances: NDArray[np.floating], count: int) -> float:
+        """Update the typical log distance of equals.
+
+        Args:
+            distances: Those of all pairs taken for equals, shape (n,).
+            count: Number of demonstrations; pairs of N things carry no more news than N.
+        """
+        if not len(distances):
+            return self.equal_mean
+        weight = min(len(distances), count) / self.equal_spread**2
+        prior = 1.0 / self.equal_mean_spread**2
+        typical = float(np.median(np.log(np.maximum(distances, 1e-9))))
+        return (prior * self.equal_mean + weight * typical) / (prior + weight)
+
+    def log_prior(self, equal_mean: float) -> float:
+        """Log prior density, up to a constant, of a session's typical log distance."""
+        return -0.5 * ((equal_mean - self.equal_mean) / self.equal_mean_spread) ** 2
+
+
+def _log_normal(x: NDArray[np.float64], mean: float, spread: float) -> NDArray[np.float64]:
+    return np.asarray(-0.5 * ((x - mean) / spread) ** 2 - np.log(spread))
+
+
+DRAWINGS = DistanceModel(
+    equal_mean=-1.2, equal_mean_spread=0.2, equal_spread=0.22, other_mean=0.05, other_spread=0.33, odd_share=0.01
+)
+SIGNS = DistanceModel(
+    equal_mean=-0.5, equal_mean_spread=0.3, equal_spread=0.40, other_mean=0.72, other_spread=0.29, odd_share=0.1
+)

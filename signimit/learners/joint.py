@@ -1,0 +1,168 @@
+"""The default learner: movements, foci, word order and sign meanings are inferred together.
+
+In the paper each step decides before the next one looks (grouping, then focus, then word order). Here every
+demonstration has one focus and one movement, and one objective weighs all that was seen: how alike two drawings are in
+the frames of their foci, how alike two signs are at each place of the utterance, where drawings lie. All word orders
+are compared by the best explanation that each allows.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import softmax
+
+from signimit.demonstrations import DemonstrationSet
+from signimit.grouping import canonical_labels
+from signimit.inference import WordOrder
+from signimit.learners.evidence import DRAWINGS, SIGNS
+from signimit.learners.places import common_place_evidence
+from signimit.learners.search import (
+    Explanation,
+    PairEvidence,
+    conditional_scores,
+    first_guesses,
+    improve_explanation,
+)
+from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
+from signimit.traces import make_trace, trace_distances
+from signimit.understanding import Understanding
+
+_TYPICAL = (-1.4, -1.2, -1.0)  # typical log distances of equal drawings to start from
+_ROUNDS = 2
+_TEMPERATURE = 3.0  # pairs are not independent: their summed evidence is this much too sure
+
+
+class Seen(NamedTuple):
+    """All that the learner looks at.
+
+    Attributes:
+        drawings: Distances of drawings in all pairs of frames, shape (N, N, O, O).
+        signs: Distances of signs at each place of the utterance, shape (W, N, N).
+        place: Evidence of each drawing's place for each object, shape (N, O), nats.
+    """
+
+    drawings: NDArray[np.float64]
+    signs: NDArray[np.float64]
+    place: NDArray[np.float64]
+
+
+class Scale(NamedTuple):
+    """Typical log distances of equals in this session."""
+
+    drawings: float
+    signs: float
+
+
+class Hypothesis(NamedTuple):
+    """A complete answer: an explanation under a word order, with the scales it goes with."""
+
+    order: WordOrder
+    explanation: Explanation
+    scale: Scale
+    score: float
+
+
+@dataclass(frozen=True)
+class JointLearner:
+    """Explains all demonstrations at once; needs no prototypes."""
+
+    def infer(
+        self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, rng: np.random.Generator
+    ) -> Understanding:
+        """Compare all word orders and return the best explanation; nothing is random."""
+        seen = look(demonstrations)
+        orders = _word_orders(len(seen.signs))
+        best = [max(_hypotheses(seen, order), key=lambda h: h.score) for order in orders]
+        chosen = max(best, key=lambda h: h.score)
+        return _understanding(seen, chosen, {h.order: h.score for h in best})
+
+    def reader(
+        self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
+    ) -> VocabularyReader:
+        """Make a reader that compares signs with all signs of each meaning."""
+        features = [sign_features([d.signs[w] for d in demonstrations]) for w in range(len(demonstrations[0].signs))]
+        return VocabularyReader(tuple(features), understanding, demonstrations.objects.shape[1])
+
+
+def look(demonstrations: DemonstrationSet) -> Seen:
+    """Measure all distances of a set of demonstrations."""
+    traces = [make_trace(d.hand, d.times) for d in demonstrations]
+    objects = demonstrations.objects
+    words = len(demonstrations[0].signs)
+    signs = [sign_distances(sign_features([d.signs[w] for d in demonstrations])) for w in range(words)]
+    place = common_place_evidence(np.stack([t.centre for t in traces]), objects)
+    return Seen(trace_distances(traces, objects), np.stack(signs), place)
+
+
+def _word_orders(words: int) -> list[WordOrder]:
+    if words == 1:
+        return [WordOrder(0, 0)]
+    return [WordOrder(f, m) for f, m in itertools.permutations(range(words), 2)]
+
+
+def weigh(seen: Seen, order: WordOrder, scale: Scale) -> PairEvidence:
+    """Turn distances into evidence under a word order and the session's scales."""
+    nobody = np.eye(len(seen.place), dtype=bool)
+    drawing = DRAWINGS.log_ratios(seen.drawings, scale.drawings)
+    drawing[nobody] = 0.0
+    movement, focus = (SIGNS.log_ratios(seen.signs[w], scale.signs) for w in (order.movement, order.focus))
+    movement[nobody] = focus[nobody] = 0.0
+    return PairEvidence(drawing, movement, focus, seen.place)
+
+
+def _hypotheses(seen: Seen, order: WordOrder) -> list[Hypothesis]:
+    """Explain the demonstrations under one word order from several starts."""
+    found = []
+    for typical in _TYPICAL:
+        scale = Scale(typical, SIGNS.equal_mean)
+        for labels, focus in first_guesses(weigh(seen, order, scale)):
+            found.append(_settle(seen, order, scale, (labels, focus)))
+    return found
+
+
+def _settle(
+    seen: Seen, order: WordOrder, scale: Scale, guess: tuple[NDArray[np.int64], NDArray[np.int64]]
+) -> Hypothesis:
+    """Alternate between the explanation and the scales it implies."""
+    explanation = improve_explanation(weigh(seen, order, scale), *guess)
+    for _ in range(_ROUNDS):
+        scale = _implied_scale(seen, order, explanation)
+        explanation = improve_explanation(weigh(seen, order, scale), explanation.labels, explanation.focus)
+    prior = DRAWINGS.log_prior(scale.drawings) + SIGNS.log_prior(scale.signs)
+    return Hypothesis(order, explanation, scale, explanation.score + prior)
+
+
+def _implied_scale(seen: Seen, order: WordOrder, explanation: Explanation) -> Scale:
+    labels, focus, _ = explanation
+    t, k = np.triu_indices(len(labels), 1)
+    one_movement, one_focus = labels[t] == labels[k], focus[t] == focus[k]
+    drawings = seen.drawings[t, k, focus[t], focus[k]][one_movement]
+    signs = np.concatenate([seen.signs[order.movement][t, k][one_movement], seen.signs[order.focus][t, k][one_focus]])
+    return Scale(DRAWINGS.posterior_mean(drawings, len(labels)), SIGNS.posterior_mean(signs, len(labels)))
+
+
+def _understanding(seen: Seen, chosen: Hypothesis, orders: dict[WordOrder, float]) -> Understanding:
+    labels = canonical_labels(chosen.explanation.labels)
+    focus = chosen.explanation.focus
+    scores = conditional_scores(weigh(seen, chosen.order, chosen.scale), labels, focus) / _TEMPERATURE
+    belief = softmax(scores.reshape(len(labels), -1), axis=1).reshape(scores.shape)
+    words = len(seen.signs)
+    order_evidence = np.full((words, words), -np.inf)
+    for order, score in orders.items():
+        order_evidence[order] = score
+    diagnostics = {
+        "distances": seen.drawings,
+        "sign_distances": seen.signs,
+        "place_evidence": seen.place,
+        "focus_probability": belief.sum(axis=1),
+        "movement_probability": belief.sum(axis=2),
+        "word_order_evidence": order_evidence,
+        "scale": np.array(chosen.scale),
+    }
+    return Understanding(labels, focus, chosen.order, diagnostics)

@@ -1,0 +1,133 @@
+"""Search for the movements and foci that explain all pairs of demonstrations best.
+
+The objective is one sum: for pairs in one movement the evidence of their drawings, seen from their foci, and of their
+movement words; for pairs with one focus the evidence of their focus words; for each demonstration the evidence of its
+place; and a price for each movement. A demonstration has one focus, the same for all its partners.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+MOVEMENT_PRICE = 5.0  # nats for each further movement: one odd sign among equals does not make a new movement
+
+
+class PairEvidence(NamedTuple):
+    """Log-likelihood ratios, nats; positive speaks for equal. Diagonals are 0.
+
+    Attributes:
+        drawing: Of two drawings being one movement, in each pair of frames, shape (N, N, O, O).
+        movement_word: Of two signs asking for one movement, shape (N, N).
+        focus_word: Of two signs asking for one object, shape (N, N).
+        place: Of each object being the focus, shape (N, O).
+    """
+
+    drawing: NDArray[np.float64]
+    movement_word: NDArray[np.float64]
+    focus_word: NDArray[np.float64]
+    place: NDArray[np.float64]
+
+
+class Explanation(NamedTuple):
+    """A hypothesis and its score.
+
+    Attributes:
+        labels: Movement of each demonstration, shape (N,).
+        focus: Object of each, shape (N,).
+        score: Value of the objective, nats.
+    """
+
+    labels: NDArray[np.int64]
+    focus: NDArray[np.int64]
+    score: float
+
+
+def score_explanation(evidence: PairEvidence, labels: NDArray[np.int64], focus: NDArray[np.int64]) -> float:
+    """Compute the objective of a hypothesis, nats. Renaming the movements does not change it."""
+    t, k = np.triu_indices(len(labels), 1)
+    one_movement, one_focus = labels[t] == labels[k], focus[t] == focus[k]
+    pairs = evidence.drawing[t, k, focus[t], focus[k]] + evidence.movement_word[t, k]
+    total = pairs[one_movement].sum() + evidence.focus_word[t, k][one_focus].sum()
+    total += evidence.place[np.arange(len(labels)), focus].sum()
+    return float(total - MOVEMENT_PRICE * len(np.unique(labels)))
+
+
+def conditional_scores(
+    evidence: PairEvidence, labels: NDArray[np.int64], focus: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Compute, for each demonstration given all others, the objective's part for each movement and object.
+
+    Returns:
+        Shape (N, K + 1, O), nats; the last movement is a new one.
+    """
+    count, frames = evidence.place.shape
+    movements = int(labels.max()) + 1
+    others = np.arange(count)
+    seen = evidence.drawing[:, others, :, focus].transpose(1, 0, 2) + evidence.movement_word[:, :, None]  # (t, k, i)
+    member = np.zeros((count, movements + 1))
+    member[others, labels] = 1.0
+    by_movement = np.einsum("tki,km->tmi", seen, member, optimize=True)
+    focused = np.zeros((count, frames))
+    focused[others, focus] = 1.0
+    scores = by_movement + (evidence.focus_word @ focused + evidence.place)[:, None, :]
+    # A movement without members, once t itself is gone, costs its price to open.
+    lonely = (member.sum(axis=0)[None] - member) == 0
+    return np.asarray(scores - MOVEMENT_PRICE * lonely[:, :, None])
+
+
+def improve_explanation(evidence: PairEvidence, labels: NDArray[np.int64], focus: NDArray[np.int64]) -> Explanation:
+    """Move one demonstration after another to where it fits best, the most urgent first, until none wants to move."""
+    labels, focus = _compact(labels), focus.copy()
+    everyone = np.arange(len(labels))
+    for _ in range(20 * len(labels)):
+        scores = conditional_scores(evidence, labels, focus)
+        flat = scores.reshape(len(labels), -1)
+        gains = flat.max(axis=1) - scores[everyone, labels, focus]
+        mover = int(gains.argmax())
+        if gains[mover] <= 1e-9:
+            break
+        labels[mover], focus[mover] = np.unravel_index(int(flat[mover].argmax()), scores.shape[1:])
+        labels = _compact(labels)
+    return Explanation(labels, focus, score_explanation(evidence, labels, focus))
+
+
+def merge_groups(affinity: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Group by merging, again and again, the two groups whose pairs sum to most, while that pays.
+
+    Args:
+        affinity: Evidence for being one movement, shape (N, N), nats, symmetric.
+
+    Returns:
+        Labels, shape (N,).
+    """
+    labels = np.arange(len(affinity))
+    gain = affinity.copy()
+    np.fill_diagonal(gain, -np.inf)
+    for _ in range(len(affinity) - 1):
+        a, b = np.unravel_index(int(gain.argmax()), gain.shape)
+        if gain[a, b] <= -MOVEMENT_PRICE:
+            break
+        gain[a] += gain[b]
+        gain[:, a] = gain[a]
+        gain[a, a] = gain[b, :] = gain[:, b] = -np.inf
+        labels[labels == b] = a
+    return _compact(labels)
+
+
+def first_guesses(evidence: PairEvidence) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Return two hypotheses to start from: movements given the foci that places suggest, and foci given movements."""
+    everyone = np.arange(len(evidence.place))
+    by_place = evidence.place.argmax(axis=1)
+    framed = evidence.drawing[everyone[:, None], everyone[None], by_place[:, None], by_place[None]]
+    by_drawing = merge_groups(evidence.drawing.max(axis=(2, 3)) + evidence.movement_word)
+    same = (by_drawing[:, None] == by_drawing[None]).astype(np.float64)
+    seen = evidence.drawing.max(axis=3)
+    focus = (np.einsum("tki,tk->ti", seen, same) + evidence.place).argmax(axis=1)
+    return [(merge_groups(framed + evidence.movement_word), by_place), (by_drawing, focus)]
+
+
+def _compact(labels: NDArray[np.int64]) -> NDArray[np.int64]:
+    return np.unique(labels, return_inverse=True)[1].astype(np.int64)
