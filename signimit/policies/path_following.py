@@ -91,32 +91,32 @@ class PathFollowingPolicy(StoredPolicy):
         if nodes is not None and np.shape(nodes) != hands.shape[:-1]:
             raise InvalidInputError("hand", f"hands of the state's shape {np.shape(nodes)}", f"{hands.shape}")
         if hands.ndim == 1:
-            seen = self._enter(hands[None])[0] if nodes is None else nodes
-            return self._step_one(int(seen), hands)
+            x, y = hands.tolist()
+            node = int(self._enter(hands[None])[0]) if nodes is None else self._observe_one(int(nodes), x, y)
+            onward, velocity = self._velocity_one(node, x, y)
+            return PhaseState(onward), velocity
         nodes = self._enter(hands) if nodes is None else self._observe(np.asarray(nodes), hands)
         velocity, near = self._velocity(nodes, hands)
-        onward = np.where(near, self._onward(nodes), nodes)
-        onward.setflags(write=False)
-        return PhaseState(onward), velocity
+        expected = np.where(near, self._onward(nodes), nodes)
+        expected.setflags(write=False)
+        return PhaseState(expected), velocity
 
     def __call__(self, hand: ArrayLike) -> Array:
         """Return velocities, shape of ``hand``, m/s, from the nearest place of the course, whatever was before."""
         hands = check_hand(hand)
         if hands.ndim == 1:
-            return self._step_one(int(self._nearest(hands[None])[0]), hands)[1]
+            return self._velocity_one(int(self._nearest(hands[None])[0]), *hands.tolist())[1]
         return self._velocity(self._nearest(hands), hands)[0]
 
-    def _step_one(self, expected: int, hand: Array) -> tuple[PhaseState, Array]:
-        """Do for one hand what `_observe` and `_velocity` do for many: plain numbers are several times faster here."""
-        x, y = hand.tolist()
-        node = self._observe_one(expected, x, y)
+    def _velocity_one(self, node: int, x: float, y: float) -> tuple[int, Array]:
+        """Return for one hand the next node and the velocity: `_velocity` in plain numbers, several times faster."""
         px, py, vx, vy = self._rows[node]
         gap_x, gap_y = px - x, py - y
         distance = math.hypot(gap_x, gap_y)
         follow = 1.0 / (1.0 + (distance / (NEAR * self.scale)) ** 4)
         pull = min(PULL, self.reach_speed / max(distance, 1e-9))
         onward = self._onward_one(node) if follow > 0.5 else node
-        return PhaseState(onward), np.array([follow * vx + pull * gap_x, follow * vy + pull * gap_y])
+        return onward, np.array([follow * vx + pull * gap_x, follow * vy + pull * gap_y])
 
     def _observe_one(self, expected: int, x: float, y: float) -> int:
         """Return the node that a hand is at: the expected one, or one near it, or anywhere if the hand is lost."""
