@@ -109,9 +109,10 @@ class DMPPolicy(StoredPolicy):
         velocity = np.where(drawing[:, None], velocity, within_speed(velocity, self.reach_speed))
         pace = drawing / (1.0 + (distance / (PATIENCE * self.scale)) ** 2) / len(self.course)
         onward = (phases + pace) % 1.0 if self.closed else np.minimum(phases + 1.0 / len(self.course), 1.0)
-        shape = hands.shape[:-1]
-        state = PrimitiveState(onward.reshape(shape), velocity.reshape(hands.shape), drawing.reshape(shape))
-        return state, velocity.reshape(hands.shape).copy()
+        shape, answer = hands.shape[:-1], velocity.reshape(hands.shape)
+        begun = drawing.reshape(shape)
+        begun.setflags(write=False)
+        return PrimitiveState(frozen(onward.reshape(shape)), frozen(answer), begun), answer
 
     def __call__(self, hand: ArrayLike) -> Array:
         """Return velocities, shape of ``hand``, m/s, from the nearest place of the course, whatever was before."""
