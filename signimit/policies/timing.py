@@ -9,7 +9,7 @@ from signimit.policies.course import Course
 from signimit.policies.protocol import CONTROL_PERIOD, Array
 
 SLOWEST = 0.1  # of the mean speed: a longer pause is shortened
-FASTEST = 4.0  # of the mean speed: a glitch is slowed down
+FASTEST = 3.0  # of the mean speed: a glitch is slowed down
 CORNER_ALLOWANCE = 1.025  # times the size: a mean of corners that do not quite meet lies inside them
 
 
