@@ -1,0 +1,81 @@
+"""Signs compared with signs, and utterances read."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from signimit import InvalidInputError, WordOrder
+from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
+from signimit.people import synthetic_library
+from signimit.understanding import Understanding
+
+Array = NDArray[np.float64]
+
+
+@pytest.fixture(scope="module")
+def digits() -> list[Array]:
+    """Three ones, three twos and three threes of one person."""
+    library = synthetic_library(("1", "2", "3"), samples=3, rng=np.random.default_rng(0))
+    return [stroke.points for stroke in library.strokes]
+
+
+def slow_distance(first: Array, second: Array) -> float:
+    """Dynamic time warping of Euclidean costs, over the number of samples, as the recurrence has it."""
+    total = np.full((len(first) + 1, len(second) + 1), np.inf)
+    total[0, 0] = 0.0
+    for i, a in enumerate(first):
+        for j, b in enumerate(second):
+            total[i + 1, j + 1] = np.linalg.norm(a - b) + min(total[i, j + 1], total[i + 1, j], total[i, j])
+    return float(total[-1, -1] / len(first))
+
+
+def reader(signs: list[Array], objects: int = 3) -> VocabularyReader:
+    features = sign_features(signs)
+    meaning = np.repeat([0, 1, 2], 3)
+    return VocabularyReader((features, features), Understanding(meaning, meaning, WordOrder(0, 1), {}), objects)
+
+
+def test_the_distance_of_signs_is_that_of_the_plain_recurrence(digits: list[Array]) -> None:
+    features = sign_features(digits)
+    slow = [[slow_distance(a, b) for b in features] for a in features]
+    np.testing.assert_allclose(sign_distances(features), slow, rtol=1e-6, atol=1e-6)
+
+
+def test_where_and_how_large_a_sign_is_made_does_not_matter(digits: list[Array]) -> None:
+    moved = [1000 * sign + [5.0, -3.0] for sign in digits]
+    np.testing.assert_allclose(sign_features(moved), sign_features(digits), atol=1e-9)
+
+
+def test_equal_signs_are_nearer_than_others(digits: list[Array]) -> None:
+    table = sign_distances(sign_features(digits))
+    same = np.kron(np.eye(3), np.ones((3, 3))).astype(bool)
+    assert table[same].max() < table[~same].min()
+
+
+def test_an_utterance_is_read_as_the_signs_it_resembles(digits: list[Array]) -> None:
+    heard = [digits[4] * 1.1, digits[8] + [0.1, 0.0]]
+    reading = reader(digits).read(heard)
+    assert reading.focus.argmax() == 1
+    assert reading.movement.argmax() == 2
+    assert reading.focus.sum() == pytest.approx(1)
+    assert reading.movement.sum() == pytest.approx(1)
+    assert (reading.focus >= 0).all()
+
+
+def test_an_object_that_was_never_named_is_never_understood(digits: list[Array]) -> None:
+    reading = reader(digits, objects=4).read([digits[0], digits[0]])
+    assert reading.focus[3] == 0
+    assert reading.focus.sum() == pytest.approx(1)
+
+
+def test_a_sign_that_was_seen_exactly_so_is_read_without_a_warning(digits: list[Array]) -> None:
+    assert reader(digits).read([digits[0], digits[3]]).focus[0] > 0.99
+
+
+def test_a_point_is_no_sign() -> None:
+    with pytest.raises(InvalidInputError, match="sign 1"):
+        sign_features([[[0, 0], [1, 1]], [[2, 2], [2, 2]]])
+
+
+def test_a_straight_sign_is_a_sign() -> None:
+    assert np.isfinite(sign_features([[[0, 0], [0, 1]]])).all()
