@@ -62,17 +62,17 @@ def test_many_hands_move_as_each_alone(kind: str, policies: dict[str, Policy]) -
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
 def test_many_hands_step_as_each_alone(kind: str, policies: dict[str, Policy]) -> None:
-    together = drive(policies[kind], HANDS[:6], 60)
-    alone = np.stack([drive(policies[kind], hand, 60) for hand in HANDS[:6]], axis=1)
+    together = drive(policies[kind], HANDS[:3], 60)
+    alone = np.stack([drive(policies[kind], hand, 60) for hand in HANDS[:3]], axis=1)
     np.testing.assert_allclose(together, alone, atol=1e-9)
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
 def test_velocities_are_finite_from_everywhere(kind: str, policies: dict[str, Policy]) -> None:
     rng = np.random.default_rng(0)
-    hands = np.concatenate([rng.uniform(-s, s, (50, 2)) for s in (1e-9, 0.1, 1.0, 900.0)])
+    hands = np.concatenate([rng.uniform(-s, s, (12, 2)) for s in (1e-9, 0.1, 1.0, 900.0)])
     assert np.isfinite(policies[kind](hands)).all()
-    assert np.isfinite(drive(policies[kind], hands, 100)).all()
+    assert np.isfinite(drive(policies[kind], hands, 40)).all()
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
@@ -115,7 +115,7 @@ def test_a_policy_cannot_be_changed(kind: str, policies: dict[str, Policy]) -> N
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
-@pytest.mark.parametrize("count", [1, 2, 30])
+@pytest.mark.parametrize("count", [1, 2, 20])
 def test_any_number_of_demonstrations_will_do(kind: str, count: int, shown: Compose) -> None:
     policy = learned(shown("circle", count), kind)
     assert np.isfinite(drive(policy, HANDS, 50)).all()
