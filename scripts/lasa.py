@@ -14,9 +14,7 @@ from signimit.policies import POLICY_KINDS, make_policy
 from signimit.policies.lasa import ReproductionError, find_lasa, reproduce, reproduction_error
 
 
-def main(
-    *, folder: Path | None = None, kinds: tuple[str, ...] = POLICY_KINDS, out: Path = Path("lasa.csv")
-) -> None:
+def main(*, folder: Path | None = None, kinds: tuple[str, ...] = POLICY_KINDS, out: Path = Path("lasa.csv")) -> None:
     """Compare policies on the LASA handwriting set with the field's measures.
 
     Each policy learns all demonstrations of a shape and starts where each of them started.

@@ -46,9 +46,7 @@ def main(
         out: Folder for the table, trials.csv, study.json and a picture of each kind.
     """
     library = _synthetic(seed) if movers is None else StrokeLibrary.load(movers)
-    plan = StudyPlan(
-        labels=labels or tuple(dict.fromkeys(library.labels)), sessions=sessions, starts=starts, seed=seed
-    )
+    plan = StudyPlan(labels=labels or tuple(dict.fromkeys(library.labels)), sessions=sessions, starts=starts, seed=seed)
     total = len(plan.labels) * sessions * len(kinds)
     trials = list(tqdm(run_study(library, plan, kinds), total=total, unit="trial"))
     summaries = summarise(trials)

@@ -30,9 +30,7 @@ from signimit.policies.protocol import StatefulPolicy as StatefulPolicy
 from signimit.policies.protocol import check_demonstrations
 from signimit.policies.storage import read_policy_arrays
 
-_CLASSES = {
-    cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy, ILOGMRPolicy, GMRPolicy, DMPPolicy)
-}
+_CLASSES = {cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy, ILOGMRPolicy, GMRPolicy, DMPPolicy)}
 POLICY_KINDS = tuple(_CLASSES)
 DEFAULT_POLICY = PathFollowingPolicy.kind
 

@@ -54,8 +54,6 @@ def interpolate(at: Array, known: Array, points: Array) -> Array:
 
 def unit_tangents(points: Array, closed: bool) -> Array:
     """Return directions of motion by central differences, shape (n, 2); zero where there is none."""
-    steps = (
-        np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0) if closed else np.gradient(points, axis=0)
-    )
+    steps = np.roll(points, -1, axis=0) - np.roll(points, 1, axis=0) if closed else np.gradient(points, axis=0)
     tangents: Array = steps / np.maximum(np.hypot(*steps.T), 1e-12)[:, None]
     return tangents

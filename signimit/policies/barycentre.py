@@ -44,9 +44,7 @@ class MeanPass(NamedTuple):
     support: Array
 
 
-def cut_passes(
-    path: SpacedPath, phases: NDArray[np.int64], nodes: int, shortest: float = 0.0
-) -> Iterator[Pass]:
+def cut_passes(path: SpacedPath, phases: NDArray[np.int64], nodes: int, shortest: float = 0.0) -> Iterator[Pass]:
     """Cut an aligned demonstration into its rounds.
 
     Args:

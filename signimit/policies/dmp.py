@@ -120,9 +120,7 @@ class DMPPolicy(StoredPolicy):
         flat = hands.reshape(-1, 2)
         phases = self._nearest(flat)
         onward = (
-            (phases + 1.0 / len(self.course)) % 1.0
-            if self.closed
-            else np.minimum(phases + 1.0 / len(self.course), 1.0)
+            (phases + 1.0 / len(self.course)) % 1.0 if self.closed else np.minimum(phases + 1.0 / len(self.course), 1.0)
         )
         ahead = (self._place(onward) - self._place(phases)) / CONTROL_PERIOD
         velocity: Array = ahead + within_speed(FREQUENCY * (self._place(phases) - flat), self.reach_speed)
@@ -135,9 +133,7 @@ class DMPPolicy(StoredPolicy):
             new = self._nearest(hands.reshape(-1, 2)) if self.closed else np.zeros(count)
             return new, np.zeros((count, 2)), np.full(count, not self.closed)
         if state.velocity.shape != hands.shape:
-            raise InvalidInputError(
-                "hand", f"hands of the state's shape {state.velocity.shape}", f"{hands.shape}"
-            )
+            raise InvalidInputError("hand", f"hands of the state's shape {state.velocity.shape}", f"{hands.shape}")
         return state.phases.reshape(-1), state.velocity.reshape(-1, 2), state.drawing.reshape(-1)
 
     def _nearest(self, hands: Array) -> Array:
@@ -147,9 +143,7 @@ class DMPPolicy(StoredPolicy):
 
     def _place(self, phases: Array) -> Array:
         nodes = np.rint(phases * len(self.course)).astype(np.int64)
-        return self.course[
-            nodes % len(self.course) if self.closed else np.minimum(nodes, len(self.course) - 1)
-        ]
+        return self.course[nodes % len(self.course) if self.closed else np.minimum(nodes, len(self.course) - 1)]
 
 
 def _bases(phases: Array, closed: bool) -> Array:

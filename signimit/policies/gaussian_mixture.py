@@ -101,9 +101,7 @@ def regress(mixture: Mixture, known: Array) -> Array:
     """
     p = known.shape[-1]
     blame = softmax(log_joint(mixture, known))  # (..., n, K)
-    gains = np.linalg.solve(
-        mixture.covariances[..., :p, :p], mixture.covariances[..., :p, p:]
-    )  # (..., K, P, D - P)
+    gains = np.linalg.solve(mixture.covariances[..., :p, :p], mixture.covariances[..., :p, p:])  # (..., K, P, D - P)
     away = known[..., None, :, :] - mixture.means[..., :, None, :p]
     precisions = np.linalg.inv(mixture.covariances[..., :p, :p])
     deviations = np.sqrt(((away @ precisions) * away).sum(axis=-1, keepdims=True))

@@ -40,11 +40,7 @@ class KNearestPolicy(StoredPolicy):
     def __post_init__(self) -> None:
         """Check the arrays and index the points."""
         super().__post_init__()
-        if (
-            self.points.ndim != 2
-            or self.points.shape[1:] != (2,)
-            or self.points.shape != self.directions.shape
-        ):
+        if self.points.ndim != 2 or self.points.shape[1:] != (2,) or self.points.shape != self.directions.shape:
             shapes = f"{self.points.shape} and {self.directions.shape}"
             raise InvalidInputError("policy: points, directions", "two arrays of shape (n, 2)", shapes)
         object.__setattr__(self, "_tree", cKDTree(self.points))

@@ -71,12 +71,8 @@ def load_lasa(path: str | os.PathLike[str]) -> LasaShape:
     except InvalidInputError as error:
         raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
     except Exception as error:  # scipy's reader fails in many ways on damaged files
-        raise FileFormatError(
-            where, "a .mat file of the LASA handwriting set", type(error).__name__
-        ) from error
-    return LasaShape(
-        Path(where).stem, [np.array(s.points) for s in strokes], [np.array(s.times) for s in strokes]
-    )
+        raise FileFormatError(where, "a .mat file of the LASA handwriting set", type(error).__name__) from error
+    return LasaShape(Path(where).stem, [np.array(s.points) for s in strokes], [np.array(s.times) for s in strokes])
 
 
 def find_lasa(folder: str | os.PathLike[str] | None = None) -> Iterator[LasaShape]:

@@ -72,9 +72,7 @@ def judge_path(path: Array, loops: Sequence[Array]) -> Conduct:
     if misfit > TOLERANCE:
         return Conduct(misfit, np.nan, np.nan, np.nan, np.nan)
     settled = path[len(path) // 3 :]
-    return Conduct(
-        misfit, corner_gap(settled, loops[0]), detour(path, loops[0]), *speed_agreement(settled, loops)
-    )
+    return Conduct(misfit, corner_gap(settled, loops[0]), detour(path, loops[0]), *speed_agreement(settled, loops))
 
 
 def corner_gap(settled: Array, loop: Array) -> float:

@@ -28,9 +28,7 @@ def without_overshoot(course: Array, scale: float) -> NDArray[np.intp]:
     nodes = len(course)
     tangents = unit_tangents(course, closed=True)
     step = float(np.hypot(*np.diff(course, axis=0).T).mean())
-    turns = np.concatenate(
-        [[0.0], np.cumsum(_cross(np.tile(course, (2, 1))[:-1], np.tile(course, (2, 1))[1:]))]
-    )
+    turns = np.concatenate([[0.0], np.cumsum(_cross(np.tile(course, (2, 1))[:-1], np.tile(course, (2, 1))[1:]))])
     every, back = np.arange(nodes), np.ones(nodes)
     start, longest = 0, 0
     for lag in range(1, min(int(LONGEST * scale / step), nodes // 2)):

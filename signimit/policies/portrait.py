@@ -64,7 +64,5 @@ def _draw_portrait(panel: Axes, policy: Policy, lesson: Lesson) -> None:
         panel.plot(*path.T, color=colour, linewidth=1.0, zorder=3)
         panel.plot(*start, "o", color=colour, markersize=4, zorder=4)
     panel.plot(0.0, 0.0, "+", color="black", markersize=6, zorder=5)
-    panel.set(
-        xlim=(-HALF_VIEW, HALF_VIEW), ylim=(-HALF_VIEW, HALF_VIEW), aspect="equal", xticks=[], yticks=[]
-    )
+    panel.set(xlim=(-HALF_VIEW, HALF_VIEW), ylim=(-HALF_VIEW, HALF_VIEW), aspect="equal", xticks=[], yticks=[])
     panel.set_title(lesson.label, fontsize=9)

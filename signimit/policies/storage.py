@@ -38,9 +38,7 @@ class StoredPolicy:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the policy to a file that `load_policy` reads; whole or not at all."""
         arrays: dict[str, NDArray[np.float64]] = {
-            field.name: np.asarray(getattr(self, field.name))
-            for field in dataclasses.fields(self)
-            if field.init
+            field.name: np.asarray(getattr(self, field.name)) for field in dataclasses.fields(self) if field.init
         }
         write_archive(path, KIND, VERSION, arrays, {"policy": self.kind})
 

@@ -111,9 +111,7 @@ def compose_lessons(library: StrokeLibrary, plan: StudyPlan) -> Iterator[tuple[i
             )
 
 
-def run_study(
-    library: StrokeLibrary, plan: StudyPlan, kinds: Sequence[str] = POLICY_KINDS
-) -> Iterator[Trial]:
+def run_study(library: StrokeLibrary, plan: StudyPlan, kinds: Sequence[str] = POLICY_KINDS) -> Iterator[Trial]:
     """Try every kind on every lesson; yields as it goes."""
     for session, lesson in compose_lessons(library, plan):
         for kind in kinds:

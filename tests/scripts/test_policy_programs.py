@@ -52,9 +52,7 @@ def test_lasa_prints_a_line_for_each_kind(tmp_path: Path) -> None:
     for i in range(2):
         demos[0, i] = {"pos": np.array([[-30.0], [20.0 + i]]) * (1 - times / 2) ** 2, "t": times}
     savemat(tmp_path / "Line.mat", {"demos": demos, "dt": 0.02})
-    done = run(
-        "lasa.py", "--folder", tmp_path, "--kinds", "path-following", "dmp", "--out", tmp_path / "lasa.csv"
-    )
+    done = run("lasa.py", "--folder", tmp_path, "--kinds", "path-following", "dmp", "--out", tmp_path / "lasa.csv")
     assert done.returncode == 0, done.stderr
     assert "path-following" in done.stdout
     assert "dmp" in done.stdout
@@ -62,9 +60,7 @@ def test_lasa_prints_a_line_for_each_kind(tmp_path: Path) -> None:
 
 
 def test_an_unknown_kind_is_refused_in_one_sentence(tmp_path: Path) -> None:
-    done = run(
-        "policies.py", "--kinds", "magic", "--labels", "circle", "--sessions", 1, "--out", tmp_path / "x"
-    )
+    done = run("policies.py", "--kinds", "magic", "--labels", "circle", "--sessions", 1, "--out", tmp_path / "x")
     assert done.returncode == 2
     assert "magic" in done.stderr.splitlines()[-1]
     assert not (tmp_path / "x").exists()

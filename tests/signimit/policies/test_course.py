@@ -83,8 +83,7 @@ def test_reach_speed_is_that_of_the_reach() -> None:
     angles = np.linspace(0, 4 * np.pi, 200, endpoint=False)
     loops = 0.1 * np.column_stack([np.cos(angles), np.sin(angles)])
     paths = [
-        np.concatenate([np.linspace(start, loops[0], 30, endpoint=False), loops])
-        for start in ([0.4, 0.1], [0.4, -0.1])
+        np.concatenate([np.linspace(start, loops[0], 30, endpoint=False), loops]) for start in ([0.4, 0.1], [0.4, -0.1])
     ]
     course = learn_course(check_demonstrations(paths, [0.02 * np.arange(230)] * 2))
     expected = np.hypot(0.3, 0.1) / 0.6

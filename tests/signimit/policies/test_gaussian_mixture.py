@@ -30,9 +30,9 @@ def likelihood(mixture: Mixture) -> float:
 def test_joint_densities_are_scipys() -> None:
     mixture = maximise(DATA, SIDES)
     for k in range(2):
-        expected = np.log(mixture.weights[k]) + multivariate_normal(
-            mixture.means[k], mixture.covariances[k]
-        ).logpdf(DATA)
+        expected = np.log(mixture.weights[k]) + multivariate_normal(mixture.means[k], mixture.covariances[k]).logpdf(
+            DATA
+        )
         np.testing.assert_allclose(log_joint(mixture, DATA)[:, k], expected, atol=1e-9)
 
 
@@ -55,9 +55,7 @@ def test_regression_with_one_component_is_least_squares() -> None:
     design = np.column_stack([np.ones(120), DATA[:, :2]])
     lines, *_ = np.linalg.lstsq(design, DATA[:, 2:], rcond=None)
     hands = DATA[:5, :2]
-    np.testing.assert_allclose(
-        regress(mixture, hands), np.column_stack([np.ones(5), hands]) @ lines, atol=0.02
-    )
+    np.testing.assert_allclose(regress(mixture, hands), np.column_stack([np.ones(5), hands]) @ lines, atol=0.02)
 
 
 def test_regression_says_far_away_what_it_says_where_trust_ends() -> None:

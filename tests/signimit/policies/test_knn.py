@@ -17,9 +17,7 @@ def test_it_is_the_mean_direction_of_the_fifty_nearest_points(shown: Callable[..
     paths, times, _ = shown("star", 3)
     policy = KNearestPolicy.learn(check_demonstrations(paths, times))
     for hand in np.random.default_rng(0).uniform(-0.2, 0.2, (20, 2)):
-        nearest = sorted(
-            range(len(policy.points)), key=lambda i: float(np.hypot(*(policy.points[i] - hand)))
-        )[:50]
+        nearest = sorted(range(len(policy.points)), key=lambda i: float(np.hypot(*(policy.points[i] - hand))))[:50]
         directions = [policy.directions[i] for i in nearest]
         np.testing.assert_allclose(policy(hand), policy.speed * np.mean(directions, axis=0), atol=1e-12)
 

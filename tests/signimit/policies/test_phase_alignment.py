@@ -18,9 +18,7 @@ from signimit.policies.phase_alignment import (
 )
 
 
-def cheapest_reading(
-    path: NDArray[np.float64], course: NDArray[np.float64], closed: bool, scale: float
-) -> float:
+def cheapest_reading(path: NDArray[np.float64], course: NDArray[np.float64], closed: bool, scale: float) -> float:
     """Try all beginnings, endings, first nodes and advances."""
     n, m = len(path), len(course)
     u, v = unit_tangents(path, False), unit_tangents(course, closed)

@@ -85,9 +85,7 @@ def test_a_saved_policy_is_the_same_policy(kind: str, policies: dict[str, Policy
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
-def test_the_same_demonstrations_give_the_same_policy(
-    kind: str, policies: dict[str, Policy], shown: Compose
-) -> None:
+def test_the_same_demonstrations_give_the_same_policy(kind: str, policies: dict[str, Policy], shown: Compose) -> None:
     paths, times, _ = shown("triangle up")
     for array in (*paths, *times):
         array.setflags(write=False)

@@ -67,9 +67,7 @@ def test_a_small_study_has_a_row_for_each_kind_and_the_default_wins() -> None:
     library = synthetic_library(labels, writers=1, samples=8, rng=np.random.default_rng(0))
     plan = StudyPlan(labels=labels, sessions=1, starts=3)
     trials = list(run_study(library, plan, ("path-following", "knn")))
-    assert [(t.kind, t.label) for t in trials] == [
-        (k, label) for label in labels for k in ("path-following", "knn")
-    ]
+    assert [(t.kind, t.label) for t in trials] == [(k, label) for label in labels for k in ("path-following", "knn")]
     ours, theirs = summarise(trials)
     assert ours.measures["drawn"][0] == ours.measures["arrived"][0] == ours.measures["on_table"][0] == 1
     assert ours.measures["misfit"][0] < 0.1
