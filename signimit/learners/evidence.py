@@ -23,6 +23,9 @@ class DistanceModel:
         other_mean: Mean log distance of others.
         other_spread: Standard deviation about that.
         odd_share: Share of equals that look like others: a sign made in an unusual way, a drawing that went wrong.
+        akin_share: Share of others that are akin, as a circle and a rectangle are that one person draws.
+        akin_mean: Mean log distance of those.
+        akin_spread: Standard deviation about that.
         chance_share: Share of others that look like equals.
     """
 
@@ -32,6 +35,9 @@ class DistanceModel:
     other_mean: float
     other_spread: float
     odd_share: float
+    akin_share: float = 0.0
+    akin_mean: float = 0.0
+    akin_spread: float = 1.0
     chance_share: float = 0.01
 
     def log_ratios(self, distances: NDArray[np.floating], equal_mean: float) -> NDArray[np.float64]:
@@ -49,11 +55,18 @@ class DistanceModel:
         """
         x = np.clip(np.log(np.maximum(distances, 1e-9)), equal_mean, max(self.other_mean, equal_mean))
         equal = _log_normal(x, equal_mean, self.equal_spread)
-        other = _log_normal(x, self.other_mean, self.other_spread)
+        other = self._log_other(x)
         return np.asarray(
             np.logaddexp(np.log1p(-self.odd_share) + equal, np.log(self.odd_share) + other)
             - np.logaddexp(np.log1p(-self.chance_share) + other, np.log(self.chance_share) + equal)
         )
+
+    def _log_other(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        plain = _log_normal(x, self.other_mean, self.other_spread)
+        if not self.akin_share:
+            return plain
+        akin = np.log(self.akin_share) + _log_normal(x, self.akin_mean, self.akin_spread)
+        return np.asarray(np.logaddexp(np.log1p(-self.akin_share) + plain, akin))
 
     def posterior_mean(self, distances: NDArray[np.floating], count: int) -> float:
         """Update the typical log distance of equals.
@@ -79,8 +92,16 @@ def _log_normal(x: NDArray[np.float64], mean: float, spread: float) -> NDArray[n
 
 
 DRAWINGS = DistanceModel(
-    equal_mean=-1.2, equal_mean_spread=0.2, equal_spread=0.22, other_mean=0.05, other_spread=0.33, odd_share=0.01
+    equal_mean=-1.2,
+    equal_mean_spread=0.2,
+    equal_spread=0.22,
+    other_mean=0.08,
+    other_spread=0.30,
+    odd_share=0.01,
+    akin_share=0.07,
+    akin_mean=-0.7,
+    akin_spread=0.2,
 )
 SIGNS = DistanceModel(
-    equal_mean=-0.5, equal_mean_spread=0.3, equal_spread=0.40, other_mean=0.72, other_spread=0.29, odd_share=0.1
+    equal_mean=-0.5, equal_mean_spread=0.3, equal_spread=0.40, other_mean=0.72, other_spread=0.29, odd_share=0.25
 )
