@@ -103,5 +103,5 @@ DRAWINGS = DistanceModel(
     akin_spread=0.2,
 )
 SIGNS = DistanceModel(
-    equal_mean=-0.5, equal_mean_spread=0.3, equal_spread=0.40, other_mean=0.72, other_spread=0.29, odd_share=0.25
+    equal_mean=-0.8, equal_mean_spread=0.28, equal_spread=0.36, other_mean=0.15, other_spread=0.19, odd_share=0.3
 )

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-MOVEMENT_PRICE = 7.0  # nats for each further movement: one odd sign among equals does not make a new movement
+MOVEMENT_PRICE = 8.0  # nats for each further movement: one odd sign among equals does not make a new movement
 
 
 class PairEvidence(NamedTuple):

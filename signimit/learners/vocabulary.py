@@ -1,9 +1,15 @@
-"""Signs compared with each other, not with prototypes: every sign that was seen helps to read the next one."""
+"""Signs compared with each other, not with prototypes: every sign that was seen helps to read the next one.
+
+Two signs are compared twice: as courses, by dynamic time warping of place and direction, and as pictures, by the
+nearest point of like slope whatever the order of drawing, for people who begin a sign at another end still draw the
+same picture. The distance is the geometric mean of both.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,42 +20,86 @@ from signimit.understanding import Reading, Understanding
 from signimit.validation import moving_points
 
 _SAMPLES = 32
-_DIRECTION = 2.0  # weight of a unit direction against the sign's root mean square radius
-_SHARPNESS = 6.0  # a meaning weighs as the mean of distance ** -6 over its signs: near ones count, far ones hardly
-_PAIRS = 2**10  # pairs that are warped at once
+_DIRECTION = 2.0  # weight of a unit direction in a course, against the sign's root mean square radius
+_SLOPE = 0.7  # weight of the slope in a picture
+_NARROWEST = 0.2  # share of its size below which a sign's width or height counts as this much
+_SHARPNESS = 10.0  # a meaning weighs as the mean of distance ** -10 over its signs: near ones count, far ones hardly
+_PAIRS = 2**10  # pairs that are compared at once
 
 
-def sign_features(signs: Sequence[ArrayLike]) -> NDArray[np.float64]:
-    """Describe signs by place and direction, free of their position and size, shape (N, 32, 4)."""
-    return np.stack([_features(moving_points(s, f"sign {i}")) for i, s in enumerate(signs)])
+class SignFeatures(NamedTuple):
+    """Signs, free of their position and size.
+
+    Attributes:
+        courses: Place and direction along each sign, shape (N, 32, 4).
+        pictures: Place, with width and height brought nearer to each other, and slope, shape (N, 32, 4).
+    """
+
+    courses: NDArray[np.float64]
+    pictures: NDArray[np.float64]
+
+    def take(self, which: NDArray[np.intp]) -> Self:
+        """Return the features of some of the signs."""
+        return type(self)(self.courses[which], self.pictures[which])
 
 
-def _features(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def sign_features(signs: Sequence[ArrayLike]) -> SignFeatures:
+    """Describe N signs, each of shape (T_s, 2), any unit."""
+    described = [_describe(moving_points(s, f"sign {i}")) for i, s in enumerate(signs)]
+    courses, pictures = zip(*described, strict=True)
+    return SignFeatures(np.stack(courses), np.stack(pictures))
+
+
+def _describe(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     path = resampled_path(points / np.abs(points).max(), _SAMPLES)
     path = path - path.mean(axis=0)
-    path /= np.sqrt((path * path).sum(axis=1).mean())
+    path /= _radius(path)
+    extents = np.sqrt(np.maximum(path.std(axis=0), _NARROWEST))
+    squared = path / extents
+    squared /= _radius(squared)
+    slope = _angles(squared)
+    course = np.column_stack([path, _DIRECTION * _unit(_angles(path))])
+    return course, np.column_stack([squared, _SLOPE * _unit(2 * slope)])  # twice the angle: up and down are one slope
+
+
+def _radius(path: NDArray[np.float64]) -> float:
+    return float(np.sqrt((path * path).sum(axis=1).mean()))
+
+
+def _angles(path: NDArray[np.float64]) -> NDArray[np.float64]:
     along = np.gradient(path, axis=0)
-    along /= np.linalg.norm(along, axis=1, keepdims=True) + 1e-12
-    return np.column_stack([path, _DIRECTION * along])
+    return np.asarray(np.arctan2(along[:, 1], along[:, 0]))
 
 
-def sign_distances(features: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Compute the warped distance of all pairs of signs, shape (N, N), no unit."""
-    first, second = np.triu_indices(len(features), 1)
-    out = np.zeros((len(features),) * 2)
-    out[first, second] = _warped(features[first], features[second])
+def _unit(angles: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.column_stack([np.cos(angles), np.sin(angles)])
+
+
+def sign_distances(features: SignFeatures) -> NDArray[np.float64]:
+    """Compute the distance of all pairs of signs, shape (N, N), no unit."""
+    count = len(features.courses)
+    first, second = np.triu_indices(count, 1)
+    out = np.zeros((count, count))
+    out[first, second] = paired_distances(features.take(first), features.take(second))
     return out + out.T
 
 
-def _warped(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Compute the warped distances of pairs of signs, each of shape (B, 32, 4)."""
-    out = np.empty(len(first))
-    for start in range(0, len(first), _PAIRS):
-        a, b = first[start : start + _PAIRS], second[start : start + _PAIRS]
-        squares = (a * a).sum(-1)[:, :, None] - 2 * a @ b.transpose(0, 2, 1) + (b * b).sum(-1)[:, None, :]
-        cost = np.sqrt(np.maximum(squares, 0.0)).transpose(1, 2, 0).copy()
-        out[start : start + _PAIRS] = warped_totals(cost) / _SAMPLES
+def paired_distances(first: SignFeatures, second: SignFeatures) -> NDArray[np.float64]:
+    """Compute the distance of each sign to the one beside it, shape (B,), no unit."""
+    out = np.empty(len(first.courses))
+    for start in range(0, len(out), _PAIRS):
+        part = slice(start, start + _PAIRS)
+        course = warped_totals(_costs(first.courses[part], second.courses[part]).transpose(1, 2, 0).copy()) / _SAMPLES
+        gaps = _costs(first.pictures[part], second.pictures[part])
+        picture = (gaps.min(axis=2).mean(axis=1) + gaps.min(axis=1).mean(axis=1)) / 2
+        out[part] = np.sqrt(course * picture)
     return out
+
+
+def _costs(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distances between all samples of pairs of signs, shape (B, 32, 32)."""
+    squares = (a * a).sum(-1)[:, :, None] - 2 * a @ b.transpose(0, 2, 1) + (b * b).sum(-1)[:, None, :]
+    return np.asarray(np.sqrt(np.maximum(squares, 0.0)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,27 +107,25 @@ class VocabularyReader:
     """Reads a sign by its distances to all signs of each meaning.
 
     Attributes:
-        features: Seen signs for each place of the utterance, W of shape (N, 32, 4).
+        features: Seen signs for each place of the utterance.
         understanding: What they meant.
         objects: Number of objects.
     """
 
-    features: tuple[NDArray[np.float64], ...]
+    features: tuple[SignFeatures, ...]
     understanding: Understanding
     objects: int
 
     def read(self, signs: Sequence[ArrayLike]) -> Reading:
         """Read an utterance."""
         labels, focus, order, _ = self.understanding
-        heard = sign_features([signs[order.movement], signs[order.focus]])
-        movement = self._weigh(heard[0], order.movement, labels, int(labels.max()) + 1)
-        return Reading(movement, self._weigh(heard[1], order.focus, focus, self.objects))
+        movement = self._weigh(signs[order.movement], order.movement, labels, int(labels.max()) + 1)
+        return Reading(movement, self._weigh(signs[order.focus], order.focus, focus, self.objects))
 
-    def _weigh(
-        self, heard: NDArray[np.float64], word: int, meanings: NDArray[np.int64], count: int
-    ) -> NDArray[np.float64]:
+    def _weigh(self, sign: ArrayLike, word: int, meanings: NDArray[np.int64], count: int) -> NDArray[np.float64]:
         known = self.features[word]
-        nearness = -_SHARPNESS * np.log(_warped(np.broadcast_to(heard, known.shape), known) + 1e-6)
+        heard = sign_features([sign]).take(np.zeros(len(known.courses), dtype=np.intp))
+        nearness = -_SHARPNESS * np.log(paired_distances(heard, known) + 1e-6)
         scores = np.full(count, -np.inf)
         for meaning in np.unique(meanings):
             members = nearness[meanings == meaning]
