@@ -28,22 +28,22 @@ def arc_lengths(points: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def space_path(stroke: Stroke, spacing: float) -> SpacedPath:
-    """Resample a timed path at about equal steps of ``spacing`` metres along it, at least four of them."""
+def space_path(stroke: Stroke, spacing: float, most: int = 10_000) -> SpacedPath:
+    """Resample a timed path at about equal steps of ``spacing`` metres, at least four and at most ``most`` of them."""
     lengths = arc_lengths(stroke.points)
     moving = np.concatenate([[True], np.diff(lengths) > 1e-9 * lengths[-1]])
-    even = np.linspace(0.0, lengths[-1], max(round(lengths[-1] / spacing), 4) + 1)
+    even = np.linspace(0.0, lengths[-1], int(np.clip(np.rint(lengths[-1] / spacing), 4, most)) + 1)
     return SpacedPath(
         interpolate(even, lengths[moving], stroke.points[moving]),
         np.interp(even, lengths[moving], stroke.times[moving]),
     )
 
 
-def space_course(points: Array, spacing: float, closed: bool) -> Array:
+def space_course(points: Array, spacing: float, closed: bool, most: int = 10_000) -> Array:
     """Resample a course at about equal steps of ``spacing`` metres; a closed one does not repeat its first point."""
     line = np.concatenate([points, points[:1]]) if closed else points
     lengths = arc_lengths(line)
-    even = np.linspace(0.0, lengths[-1], max(round(lengths[-1] / spacing), 4) + 1)
+    even = np.linspace(0.0, lengths[-1], int(np.clip(np.rint(lengths[-1] / spacing), 4, most)) + 1)
     return interpolate(even[:-1] if closed else even, lengths, line)
 
 

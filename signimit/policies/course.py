@@ -22,6 +22,7 @@ from signimit.policies.protocol import Array
 from signimit.strokes import Stroke
 
 COARSE, FINE = 110, 360  # points of a typical demonstration, to choose a course and to refine it
+LONGEST = 4  # typical lengths; what is longer is sampled more coarsely
 MOST_MODELS = 8  # demonstrations that candidate courses are taken from
 MOST_CHOSEN_BY = 12  # demonstrations that choose among them
 MOST_REFINED_BY = 40  # demonstrations averaged; more add time, not accuracy
@@ -54,7 +55,7 @@ class Course(NamedTuple):
 def learn_course(demonstrations: Sequence[Stroke]) -> Course:
     """Find the shared course of demonstrations of one movement."""
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
-    coarse = [space_path(d, length / COARSE).points for d in _spread(demonstrations, MOST_CHOSEN_BY)]
+    coarse = [space_path(d, length / COARSE, LONGEST * COARSE).points for d in _spread(demonstrations, MOST_CHOSEN_BY)]
     scale = float(np.median([_half_size(path) for path in coarse]))
     points, closed = _choose_course(coarse, scale)
     return _refine_course(_spread(demonstrations, MOST_REFINED_BY), points, closed, scale)
@@ -105,11 +106,11 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
     """Align, average, and begin again with the average."""
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
     spacing = length / FINE
-    paths = [space_path(d, spacing) for d in demonstrations]
+    paths = [space_path(d, spacing, LONGEST * FINE) for d in demonstrations]
     mean = MeanPass(points, points[:, 0], points[:, 0])
     alignments: list[PhaseAlignment] = []
     for _ in range(REFINEMENTS):
-        nodes = space_course(mean.points, spacing, closed)
+        nodes = space_course(mean.points, spacing, closed, LONGEST * FINE)
         alignments = align_phases([p.points for p in paths], nodes, closed, scale)
         shortest = SHORTEST_PASS if closed else 0.0
         passes = [

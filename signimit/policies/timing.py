@@ -10,6 +10,7 @@ from signimit.policies.protocol import CONTROL_PERIOD, Array
 
 SLOWEST = 0.1  # of the mean speed: a longer pause is shortened
 FASTEST = 3.0  # of the mean speed: a glitch is slowed down
+MOST_NODES = 10_000  # control periods; what would take longer is done faster
 CORNER_ALLOWANCE = 1.025  # times the size: a mean of corners that do not quite meet lies inside them
 
 
@@ -21,7 +22,7 @@ def time_course(course: Course) -> Array:
     mean = shown[shown > 0].mean() if (shown > 0).any() else course.reach_speed
     speeds = np.clip(np.where(shown > 0, shown, mean), SLOWEST * mean, FASTEST * mean)
     clock = np.concatenate([[0.0], np.cumsum(steps / speeds)])
-    count = max(round(clock[-1] / CONTROL_PERIOD), 2)
+    count = int(np.clip(np.rint(clock[-1] / CONTROL_PERIOD), 2, MOST_NODES))
     even = np.linspace(0.0, clock[-1], count + 1)
     if not course.closed:
         return interpolate(even, clock, line)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from signimit.policies.course import Course
-from signimit.policies.timing import CORNER_ALLOWANCE, time_course
+from signimit.policies.timing import CORNER_ALLOWANCE, MOST_NODES, time_course
 
 LINE = np.column_stack([np.arange(11) / 10, np.zeros(11)])
 
@@ -28,6 +28,10 @@ def test_a_pause_is_shortened_and_a_glitch_slowed() -> None:
         nodes = time_course(Course(LINE, speeds, False, 0.5, 1.0))
         assert len(nodes) * 0.02 < 3.0
         assert np.hypot(*np.diff(nodes, axis=0).T).min() > 0
+
+
+def test_a_course_of_hours_is_followed_in_minutes() -> None:
+    assert len(time_course(Course(LINE, np.full(11, 1e-6), False, 0.5, 1.0))) == MOST_NODES + 1
 
 
 def test_a_speed_that_nobody_showed_is_the_mean_speed() -> None:
