@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.acceleration import kernels_for
 from signimit.recurrence import drawing_start
 
 SAMPLES = 64
@@ -81,9 +80,6 @@ def trace_distances(traces: Sequence[Trace], objects: NDArray[np.float64]) -> ND
         ``[t, k, i, j] == [k, t, j, i]``.
     """
     framed = _framed(traces, objects)
-    kernels = kernels_for((framed.shape[0] * framed.shape[1] * SAMPLES) ** 2)
-    if kernels is not None:
-        return np.asarray(kernels.drawing_distances(framed))
     one_way = np.stack([cross_distances(framed[t], framed) for t in range(len(traces))])
     return np.asarray((one_way + one_way.transpose(1, 0, 3, 2)) / 2)
 
@@ -95,7 +91,7 @@ def distances_to(
     new, old = _framed([trace], objects[None]), _framed(traces, places)
     there = cross_distances(new[0], old)
     back = np.stack([cross_distances(other, new)[0] for other in old])
-    return (there + back.transpose(0, 2, 1)) / 2
+    return np.asarray((there + back.transpose(0, 2, 1)) / 2)
 
 
 def _framed(traces: Sequence[Trace], objects: NDArray[np.float64]) -> NDArray[np.float32]:

@@ -1,0 +1,78 @@
+"""Compiled and plain distances agree, and nothing is imported before it pays."""
+
+import importlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from signimit import acceleration, group_movements, policy_distances
+from signimit.similarity import maximum_similarities
+
+Array = NDArray[np.float64]
+
+
+def loops(count: int, seed: int) -> tuple[list[Array], Array]:
+    """Noisy circles and squares of different lengths about different objects."""
+    rng = np.random.default_rng(seed)
+    paths = []
+    for t in range(count):
+        angles = np.linspace(0, 4 * np.pi, int(rng.integers(20, 60)))
+        circle = 0.1 * np.column_stack([np.cos(angles), np.sin(angles) * (-1) ** t])
+        paths.append(circle + rng.normal(0, 0.002, circle.shape) + rng.uniform(-0.2, 0.2, 2))
+    return paths, rng.uniform(-0.2, 0.2, (count, 3, 2))
+
+
+@pytest.fixture
+def always(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
+
+
+@pytest.mark.parametrize("shift", [0.0, 50.0])
+def test_compiled_policy_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
+    pytest.importorskip("numba")
+    paths, objects = loops(7, 0)
+    paths, objects = [path + shift for path in paths], objects + shift
+    plain = policy_distances(paths, objects)
+    monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
+    compiled = policy_distances(paths, objects)
+    np.testing.assert_allclose(compiled, plain, rtol=1e-9, atol=1e-12)
+    ours, theirs = (group_movements(maximum_similarities(d), rng=1).labels for d in (compiled, plain))
+    np.testing.assert_array_equal(ours, theirs)
+
+
+@pytest.mark.usefixtures("always")
+def test_compiled_distances_are_the_same_bytes_again_however_many_work_at_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    paths, objects = loops(5, 1)
+    first = policy_distances(paths, objects)
+    monkeypatch.setattr("os.sched_getaffinity", lambda _: {0, 1, 2}, raising=False)
+    assert policy_distances(paths, objects).tobytes() == first.tobytes()
+
+
+@pytest.mark.usefixtures("always")
+def test_of_two_points_at_one_place_the_first_is_the_nearest() -> None:
+    there_back_and_up = np.array([[0.0, 0.0], [0.1, 0.0], [0.0, 0.0], [0.0, 0.1]])
+    distance = policy_distances([there_back_and_up] * 2, np.zeros((2, 1, 2)))[0, 1, 0, 0]
+    assert distance == pytest.approx((np.pi / 2) ** 2 / 3)
+
+
+def test_without_numba_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.delitem(sys.modules, "signimit.kernels", raising=False)
+    acceleration.find_kernels.cache_clear()
+    assert acceleration.find_kernels() is None
+    acceleration.find_kernels.cache_clear()
+
+
+def test_only_the_size_decides_and_small_sets_stay_with_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(acceleration, "find_kernels", lambda: importlib)
+    assert acceleration.kernels_for(acceleration.WORTHWHILE - 1) is None
+    assert acceleration.kernels_for(acceleration.WORTHWHILE) is importlib
+
+
+def test_importing_signimit_does_not_import_numba() -> None:
+    code = "import sys, signimit; sys.exit('numba' in sys.modules)"
+    assert subprocess.run([sys.executable, "-W", "ignore", "-c", code], check=False).returncode == 0
