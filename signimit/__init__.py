@@ -24,6 +24,8 @@ M        memberships of trajectories in movement groups, ``(N, N)``     m_{m;t}
 Metres, seconds, radians. Table frame: x right, y away from the arm's base, origin at the table's centre.
 """
 
+from signimit.composition import GroundTruth as GroundTruth
+from signimit.composition import compose_demonstrations as compose_demonstrations
 from signimit.demonstrations import Demonstration as Demonstration
 from signimit.demonstrations import DemonstrationSet as DemonstrationSet
 from signimit.evaluation import Performance as Performance
@@ -39,11 +41,16 @@ from signimit.grouping import group_movements as group_movements
 from signimit.inference import WordOrder as WordOrder
 from signimit.inference import infer_focus as infer_focus
 from signimit.inference import infer_word_order as infer_word_order
+from signimit.languages import PAPER_LANGUAGE as PAPER_LANGUAGE
+from signimit.languages import Language as Language
 from signimit.learning import ImitationModel as ImitationModel
 from signimit.learning import Movement as Movement
 from signimit.learning import Response as Response
 from signimit.learning import learn as learn
+from signimit.people import synthetic_library as synthetic_library
+from signimit.policies import POLICY_KINDS as POLICY_KINDS
 from signimit.policies import Policy as Policy
+from signimit.policies import StatefulPolicy as StatefulPolicy
 from signimit.policies import load_policy as load_policy
 from signimit.policies import make_policy as make_policy
 from signimit.signs import SignSpace as SignSpace

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+_QUARTILE = 0.674  # of a normal distribution, in standard deviations below its middle
+
 
 @dataclass(frozen=True, kw_only=True)
 class DistanceModel:
@@ -79,7 +81,10 @@ class DistanceModel:
             return self.equal_mean
         weight = min(len(distances), count) / self.equal_spread**2
         prior = 1.0 / self.equal_mean_spread**2
-        typical = float(np.median(np.log(np.maximum(distances, 1e-9))))
+        # The lower quartile, moved to where the middle would be: if two movements were taken for one, the pairs within
+        # each still tell how alike equals are, and the pairs across look as different as they should.
+        quartile = float(np.quantile(np.log(np.maximum(distances, 1e-9)), 0.25))
+        typical = quartile + _QUARTILE * self.equal_spread
         return (prior * self.equal_mean + weight * typical) / (prior + weight)
 
     def log_prior(self, equal_mean: float) -> float:
