@@ -1,4 +1,4 @@
-"""Compiled distances of policies (numba, the extra ``fast``): the same answers as the numpy code, several times as fast.
+"""Compiled policy distances (numba, the extra ``fast``): the same answers as the numpy code, several times as fast.
 
 Import this module through `signimit.acceleration.find_kernels` only: it needs numba.
 """

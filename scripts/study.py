@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Every table and figure of how well demonstrations are understood, from seeds."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import shlex
+import sys
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import scipy
+from tqdm import tqdm
+
+import signimit
+from signimit.command_line import run_program
+from signimit.exceptions import InvalidInputError
+from signimit.output import whole_files
+from signimit.strokes import StrokeLibrary
+from signimit.study.cells import Cell, People, study_cells
+from signimit.study.figures import draw_calibration, draw_cells, draw_growth
+from signimit.study.records import OURS, Record, read_records, run_sessions
+from signimit.study.scaling import Measurement, measure_growth
+from signimit.study.scoring import calibrate
+from signimit.study.tables import Row, beaten_cells, markdown, tabulate, write_csv
+
+OUT = Path("results/study")
+LONGEST = 60.0  # s; a step that took longer is not measured at larger sizes
+
+
+def main(
+    what: Literal["cells", "calibration", "scaling"],
+    /,
+    *,
+    sessions: int = 20,
+    first_seed: int = 0,
+    signs: Path | None = None,
+    movements: Path | None = None,
+    only: str = "",
+    workers: int = 0,
+    counts: tuple[int, ...] = (12, 25, 50, 100, 200, 500, 1000),
+    out: Path = OUT,
+) -> None:
+    """Compare the default learner with all baselines, look at its confidence, measure how it grows.
+
+    Args:
+        what: The table of all cells, which goes on where a killed run stopped; the calibration of confidence in the
+            sessions of that table; or time and memory against the number of demonstrations.
+        sessions: How many of each cell.
+        first_seed: Seed of the first; the others follow.
+        signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
+        movements: Stroke library of real people who draw movements.
+        only: Run only cells whose names contain this.
+        workers: Processes; left out, one less than there are processors.
+        counts: Numbers of demonstrations to measure, ascending.
+        out: Folder for what is written.
+    """
+    if what == "calibration":
+        calibration(out)
+    elif what == "scaling":
+        scaling(counts, out)
+    else:
+        people = None
+        if signs is not None and movements is not None:
+            people = People(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
+        chosen = [c for c in study_cells(people is not None) if only in c.name]
+        if sessions < 1 or not chosen:
+            raise InvalidInputError("cells", "at least 1 session of 1 cell", f"{sessions} of {len(chosen)}")
+        workers = workers or max(1, (os.cpu_count() or 2) - 1)
+        cells(chosen, range(first_seed, first_seed + sessions), people, workers, out)
+
+
+def cells(chosen: list[Cell], seeds: range, people: People | None, workers: int, out: Path) -> None:
+    """Run the sessions that were not run yet, and write the table of all."""
+    records = out / "sessions.jsonl"
+    for _ in tqdm(run_sessions(chosen, seeds, records, people, workers), unit="session"):
+        pass
+    order = {c.name: number for number, c in enumerate(chosen)}
+    found = [r for r in read_records(records) if r["cell"] in order and r["seed"] in seeds]
+    rows = tabulate(sorted(found, key=lambda r: (order[r["cell"]], r["seed"])))
+    with whole_files(out) as folder:
+        write_csv(folder / "cells.csv", Row._fields, rows)
+        (folder / "cells.md").write_text(markdown(rows) + "\n", encoding="utf-8")
+        sources = [p.source for p in people] if people else ["synthetic"]
+        facts = {"seeds": [seeds[0], seeds[-1]], "people": sources, "beaten": beaten_cells(rows)}
+        _write_facts(folder / "cells.json", facts)
+        draw_cells(rows).savefig(folder / "cells.png", dpi=90)
+    print(markdown(rows))
+    for cell, method, theirs, ours in beaten_cells(rows):
+        print(f"{cell}: {method} was right in {theirs} sessions, {OURS} in {ours}")
+
+
+def calibration(out: Path) -> None:
+    """Say how well confidences fit, over all commands of the sessions in the folder."""
+    records = read_records(out / "sessions.jsonl")
+    if not records:
+        raise InvalidInputError(str(out / "sessions.jsonl"), "sessions; run `study.py cells` first", "none")
+    groups = {"all": records} | {
+        kind: [r for r in records if r["cell"].startswith(kind)] for kind in ("synthetic", "real")
+    }
+    rows, facts = [], {}
+    for kind, mine in groups.items():
+        if not mine:
+            continue
+        found = calibrate(*_asked(mine))
+        facts[kind] = {"commands": int(found.counts.sum()), "expected calibration error": round(found.error, 4)}
+        rows += [
+            (kind, f"{c:.4f}", f"{a:.4f}", n)
+            for c, a, n in zip(found.confidence, found.accuracy, found.counts, strict=True)
+        ]
+    with whole_files(out) as folder:
+        write_csv(folder / "calibration.csv", ("people", "confidence", "accuracy", "commands"), rows)
+        _write_facts(folder / "calibration.json", facts)
+        draw_calibration(calibrate(*_asked(records))).savefig(folder / "calibration.png", dpi=90)
+    print(json.dumps(facts, indent=1))
+
+
+def _asked(records: list[Record]) -> tuple[list[float], list[int]]:
+    asked = [tuple(command) for r in records for command in r["commands"]]
+    return [sure for sure, _ in asked], [right for _, right in asked]
+
+
+def scaling(counts: tuple[int, ...], out: Path) -> None:
+    """Measure how time and memory grow with the number of demonstrations."""
+    found = []
+    for measurement in measure_growth(counts, LONGEST):
+        print("{:5d} demonstrations, {:24s}{:9.3f} s {:8.1f} MB".format(*measurement), flush=True)
+        found.append(measurement)
+    with whole_files(out) as folder:
+        write_csv(folder / "scaling.csv", Measurement._fields, found)
+        _write_facts(folder / "scaling.json", {"processors": os.cpu_count(), "load": os.getloadavg()[0]})
+        draw_growth(found).savefig(folder / "scaling.png", dpi=90)
+
+
+def _write_facts(path: Path, facts: dict[str, Any]) -> None:
+    """Write how a table was made beside it."""
+    made = {
+        "command": shlex.join(["python", *sys.argv]),
+        "versions": {
+            "signimit": signimit.__version__, "python": platform.python_version(), "numpy": np.__version__,
+            "scipy": scipy.__version__, "scikit-learn": version("scikit-learn"),
+        },
+    }  # fmt: skip
+    path.write_text(json.dumps(facts | made, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    run_program(main)

@@ -1,0 +1,4 @@
+"""Learners and baselines on the same sessions: cells, methods, records, tables. For `scripts/study.py`, not for users.
+
+The baselines need scikit-learn (the extra ``study``), the figures matplotlib (``scripts``).
+"""

@@ -1,0 +1,69 @@
+"""The study's figures. Needs matplotlib, which the extra ``scripts`` installs; nothing else imports this module."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from signimit.exceptions import MissingDependencyError
+from signimit.study.scaling import STEPS, Measurement
+from signimit.study.scoring import Calibration
+from signimit.study.tables import Row
+
+try:
+    from matplotlib.figure import Figure
+except ImportError:
+    raise MissingDependencyError("matplotlib", "scripts", "Drawing figures") from None
+
+BLUE, GREY = "#0571b0", "#777777"
+
+
+def draw_cells(rows: Sequence[Row]) -> Figure:
+    """Draw the share of sessions with every inference right: a row for each cell, a column for each method."""
+    cells, methods = (list(dict.fromkeys(getattr(row, name) for row in rows)) for name in ("cell", "method"))
+    shares = np.full((len(cells), len(methods)), np.nan)
+    for row in rows:
+        shares[cells.index(row.cell), methods.index(row.method)] = 100 * row.all_right / row.sessions
+    figure = Figure(figsize=(2.6 + 0.62 * len(methods), 1.8 + 0.27 * len(cells)), layout="constrained")
+    axes = figure.subplots()
+    axes.imshow(shares, cmap="Blues", vmin=0, vmax=130, aspect="auto")
+    for (y, x), share in np.ndenumerate(shares):
+        axes.text(x, y, f"{share:.0f}", ha="center", va="center", fontsize=7, weight="bold" if x == 0 else "normal")
+    axes.set_xticks(range(len(methods)), methods, rotation=40, ha="right", fontsize=8)
+    axes.set_yticks(range(len(cells)), cells, fontsize=8)
+    counts = sorted({row.sessions for row in rows})
+    axes.set_title(f"Sessions with every inference right, % of {' or '.join(map(str, counts))}", fontsize=10)
+    return figure
+
+
+def draw_calibration(calibration: Calibration) -> Figure:
+    """Draw the reliability diagram and the risk-coverage curve."""
+    figure = Figure(figsize=(9, 4), layout="constrained")
+    left, right = figure.subplots(1, 2)
+    left.plot([0, 1], [0, 1], color=GREY, linewidth=0.8)
+    left.scatter(calibration.confidence, calibration.accuracy, 10 + 4 * np.sqrt(calibration.counts), color=BLUE)
+    for x, y, n in zip(calibration.confidence, calibration.accuracy, calibration.counts, strict=True):
+        left.annotate(f"{n}", (x, y), (4, -10), textcoords="offset points", fontsize=7, color=GREY)
+    left.set(xlabel="confidence", ylabel="share that was right", xlim=(0, 1.03), ylim=(0, 1.03))
+    left.set_title(f"expected calibration error {calibration.error:.3f}", fontsize=10)
+    right.plot(100 * calibration.coverage, 100 * calibration.risk, color=BLUE)
+    right.set(xlabel="commands answered, % (the surest first)", ylabel="wrong among them, %", xlim=(0, 100))
+    right.set_ylim(bottom=0)
+    right.set_title("declining what is doubtful", fontsize=10)
+    return figure
+
+
+def draw_growth(measurements: Sequence[Measurement]) -> Figure:
+    """Draw time and memory against the number of demonstrations."""
+    figure = Figure(figsize=(9, 4), layout="constrained")
+    panels = figure.subplots(1, 2)
+    for step, colour in zip(STEPS, (BLUE, GREY, "#b35806"), strict=True):
+        mine = [m for m in measurements if m.step == step]
+        count = [m.demonstrations for m in mine]
+        panels[0].loglog(count, [m.seconds for m in mine], "o-", color=colour, label=step)
+        panels[1].loglog(count, [max(m.megabytes, 0.1) for m in mine], "o-", color=colour)
+    panels[0].set(xlabel="demonstrations", ylabel="seconds")
+    panels[1].set(xlabel="demonstrations", ylabel="memory above the start, MB")
+    panels[0].legend(fontsize=8, frameon=False)
+    return figure

@@ -1,0 +1,83 @@
+"""How time and memory of learning grow with the number of demonstrations."""
+
+from __future__ import annotations
+
+import multiprocessing
+import resource
+import time
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from signimit.composition import compose_demonstrations
+from signimit.demonstrations import DemonstrationSet
+from signimit.languages import PAPER_LANGUAGE, Language
+from signimit.learning import learn
+from signimit.people import synthetic_library
+from signimit.similarity import policy_distances
+from signimit.traces import make_trace, trace_distances
+
+SAMPLES = 40
+STEPS = ("distances of drawings", "distances of policies", "learning")
+
+
+class Measurement(NamedTuple):
+    """One step at one size.
+
+    Attributes:
+        demonstrations: N.
+        step: One of `STEPS`.
+        seconds: Wall-clock time.
+        megabytes: How much the peak of resident memory grew above what the process had before.
+    """
+
+    demonstrations: int
+    step: str
+    seconds: float
+    megabytes: float
+
+
+def measure_growth(counts: Sequence[int], seconds: float, seed: int = 0) -> Iterator[Measurement]:
+    """Measure every step at every size, each in a process of its own; yields as they end.
+
+    Args:
+        counts: Numbers of demonstrations, ascending.
+        seconds: A step that took longer than this is not tried at larger sizes.
+        seed: Of the session.
+    """
+    context = multiprocessing.get_context("spawn")
+    for step in STEPS:
+        for count in counts:
+            with context.Pool(1) as pool:
+                measured = pool.apply(_measure, (count, step, seed))
+            yield measured
+            if measured.seconds > seconds:
+                break
+
+
+def compose_many(count: int, seed: int) -> DemonstrationSet:
+    """Compose that many demonstrations of the paper's language."""
+    rng, paper = np.random.default_rng(seed), PAPER_LANGUAGE
+    language = Language(repetitions=-(-count // len(paper.seen)))
+    signs = synthetic_library((*paper.focus_signs, *paper.movement_signs), samples=SAMPLES, rng=rng)
+    movements = synthetic_library(paper.movements, samples=SAMPLES, rng=rng)
+    demonstrations, _ = compose_demonstrations(language, signs, movements, rng)
+    return DemonstrationSet(demonstrations[:count])
+
+
+def _measure(count: int, step: str, seed: int) -> Measurement:
+    demonstrations = compose_many(count, seed)
+    before, start = _peak(), time.perf_counter()
+    if step == "learning":
+        learn(demonstrations, policy="knn")
+    elif step == "distances of policies":
+        policy_distances(demonstrations.paths, demonstrations.objects)
+    else:
+        trace_distances([make_trace(d.hand, d.times) for d in demonstrations], demonstrations.objects)
+    return Measurement(count, step, round(time.perf_counter() - start, 4), round(_peak() - before, 1))
+
+
+def _peak() -> float:
+    """Peak of resident memory so far, megabytes."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024

@@ -1,0 +1,69 @@
+"""What came out of all sessions, as rows: one for each cell and method."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from signimit.study.records import OURS, Record
+from signimit.study.scoring import wilson_interval
+
+
+class Row(NamedTuple):
+    """How often a method was right in a cell, with Wilson's 95 % interval of all inferences right."""
+
+    cell: str
+    method: str
+    sessions: int
+    group_right: int
+    focus_right: int
+    order_right: int
+    all_right: int
+    all_low: float
+    all_high: float
+
+
+def tabulate(records: Sequence[Record]) -> list[Row]:
+    """Count for each cell and method, ours first, in the order they first appear."""
+    rows = []
+    for cell in dict.fromkeys(r["cell"] for r in records):
+        mine = [r["verdicts"] for r in records if r["cell"] == cell]
+        for method in sorted(mine[0], key=lambda name: name != OURS):
+            verdicts = [v[method] for v in mine]
+            every = sum(all(v) for v in verdicts)
+            low, high = wilson_interval(every, len(verdicts))
+            group, focus, order = (sum(v[i] for v in verdicts) for i in range(3))
+            rows.append(Row(cell, method, len(verdicts), group, focus, order, every, round(low, 3), round(high, 3)))
+    return rows
+
+
+def beaten_cells(rows: Sequence[Row]) -> list[tuple[str, str, int, int]]:
+    """Name every cell in which a baseline was right more often than ours: cell, method, its count and ours."""
+    ours = {row.cell: row.all_right for row in rows if row.method == OURS}
+    return [(r.cell, r.method, r.all_right, ours[r.cell]) for r in rows if r.all_right > ours[r.cell]]
+
+
+def markdown(rows: Sequence[Row]) -> str:
+    """Return the share of sessions with every inference right, in per cent, a line for each cell."""
+    methods = list(dict.fromkeys(row.method for row in rows))
+    lines = ["| cell | n | " + " | ".join(methods) + " |", "|---" * (len(methods) + 2) + "|"]
+    for cell in dict.fromkeys(row.cell for row in rows):
+        mine = {row.method: row for row in rows if row.cell == cell}
+        shares = " | ".join(_share(mine[method]) for method in methods)
+        lines.append(f"| {cell} | {mine[methods[0]].sessions} | {shares} |")
+    return "\n".join(lines)
+
+
+def _share(row: Row) -> str:
+    text = f"{100 * row.all_right / row.sessions:.0f}"
+    return f"**{text}** [{100 * row.all_low:.0f}, {100 * row.all_high:.0f}]" if row.method == OURS else text
+
+
+def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+    """Write a table with a header."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(header)
+        writer.writerows(rows)
