@@ -1,0 +1,18 @@
+"""Growth is measured in processes of their own."""
+
+import pytest
+
+from signimit.study import scaling
+from signimit.study.scaling import compose_many, measure_growth
+
+
+def test_as_many_demonstrations_are_composed_as_were_asked_for() -> None:
+    assert [len(compose_many(count, 0)) for count in (3, 12, 13)] == [3, 12, 13]
+
+
+def test_a_step_that_took_too_long_is_not_tried_at_larger_sizes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(scaling, "STEPS", ("distances of drawings",))
+    (only,) = measure_growth((2, 3), seconds=0.0)
+    assert only.demonstrations == 2
+    assert only.seconds > 0
+    assert only.megabytes >= 0
