@@ -91,9 +91,20 @@ offer_gl() {
 ensure_environment() {
     python=$(find_python)
     wanted=$(wanted_stamp "$python")
-    if [ -x "$venv/bin/python" ] && [ "$(cat "$venv/.ready-for-$1" 2>/dev/null)" = "$wanted" ]; then
+    if is_ready "$1"; then
         return
     fi
+    if command -v flock >/dev/null 2>&1; then # of two first calls at once the second waits, and finds all done
+        exec 9>"$venv.lock"
+        flock 9
+    fi
+    is_ready "$1" || set_up "$1"
+    exec 9>&-
+}
+
+is_ready() { [ -x "$venv/bin/python" ] && [ "$(cat "$venv/.ready-for-$1" 2>/dev/null)" = "$wanted" ]; }
+
+set_up() {
     say "setting up $venv, once; this takes a minute or two"
     rm -f "$venv"/.ready-for-*
     make_venv "$python"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 from signimit.exceptions import MissingDependencyError, SignimitError
 
 BAD_INPUT = 2
+PIPE_CLOSED = 141  # what a shell reports of a program that SIGPIPE ended
 _SCRIPT_PACKAGES = ("matplotlib", "tqdm", "tyro")
 
 
@@ -26,6 +28,10 @@ def run_program(program: Callable[..., None]) -> None:
 
         help_text = (inspect.getdoc(program) or "").partition("\nArgs:")[0]  # tyro puts these beside the options
         tyro.cli(program, description=help_text.strip())
+        sys.stdout.flush()
+    except BrokenPipeError:  # whoever read the output has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python complains when it flushes at exit
+        sys.exit(PIPE_CLOSED)
     except (SignimitError, OSError, ModuleNotFoundError) as error:
         sys.stderr.write(f"{Path(sys.argv[0]).stem}: {_sentence(error)}\n")
         sys.exit(BAD_INPUT)

@@ -54,6 +54,10 @@ class Demonstration:
         object.__setattr__(self, "hand", hand)
         object.__setattr__(self, "times", increasing_times(self.times, "times", len(hand)))
 
+    def __repr__(self) -> str:
+        """Say its sizes, e.g. ``Demonstration(signs=2, objects=3, samples=250)``."""
+        return f"Demonstration(signs={len(self.signs)}, objects={len(self.objects)}, samples={len(self.hand)})"
+
 
 @dataclass(frozen=True, eq=False)
 class DemonstrationSet(Sequence[Demonstration]):
@@ -99,6 +103,12 @@ class DemonstrationSet(Sequence[Demonstration]):
     def __len__(self) -> int:
         """Return N."""
         return len(self.demonstrations)
+
+    def __repr__(self) -> str:
+        """Say its sizes, e.g. ``DemonstrationSet(12 demonstrations, signs=2, objects=3)``."""
+        first = self.demonstrations[0]
+        counts = f"{len(self)} demonstration{'s' * (len(self) != 1)}"
+        return f"DemonstrationSet({counts}, signs={len(first.signs)}, objects={len(first.objects)})"
 
     @property
     def paths(self) -> list[NDArray[np.float64]]:

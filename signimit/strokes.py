@@ -43,6 +43,10 @@ class Stroke:
         """Return the number of points."""
         return len(self.points)
 
+    def __repr__(self) -> str:
+        """Say how long it is, e.g. ``Stroke(250 points, 1.99 s)``."""
+        return f"Stroke({len(self)} points, {self.times[-1] - self.times[0]:.2f} s)"
+
 
 @dataclass(frozen=True, eq=False)
 class StrokeLibrary(Sequence[Stroke]):
@@ -94,6 +98,12 @@ class StrokeLibrary(Sequence[Stroke]):
     def __len__(self) -> int:
         """Return the number of strokes."""
         return len(self.strokes)
+
+    def __repr__(self) -> str:
+        """Say what is in it, e.g. ``StrokeLibrary(340 strokes, 17 labels, 1 writer, source='synthetic')``."""
+        sizes = (len(self), "stroke"), (len(set(self.labels)), "label"), (len(set(self.writers)), "writer")
+        counts = ", ".join(f"{size} {noun}{'s' * (size != 1)}" for size, noun in sizes)
+        return f"StrokeLibrary({counts}, source={self.source!r})"
 
     def select(self, label: str | None = None, writer: str | None = None) -> StrokeLibrary:
         """Return the part with one label, one writer, or both.

@@ -60,8 +60,8 @@ class Judge:
     """Watches one episode at a time and says when the request is fulfilled.
 
     A look costs a millisecond, a control step a tenth of one. So the judge glances twice a second at whether the hand
-    does anything like what was asked for; if so it looks five times a second; and it compares with everything else that
-    could have been meant once, when the request seems fulfilled.
+    does anything like what was asked for, looks closer if so, and compares with everything else that could have been
+    meant only where the request seems fulfilled.
     """
 
     def __init__(self, templates: Sequence[Sequence[NDArray[np.float64]]]) -> None:

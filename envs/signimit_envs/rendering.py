@@ -32,11 +32,8 @@ def has_display() -> bool:
     return sys.platform != "linux" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
-@functools.cache
 def choose_backend() -> str:
     """Choose what draws: the user's MUJOCO_GL, else the first of glfw, egl and osmesa that works here.
-
-    Each candidate is tried in a process of its own, because a failed one spoils OpenGL for the rest of the process.
 
     Returns:
         Name of the backend; empty where MuJoCo's own choice is right (macOS, Windows).
@@ -47,11 +44,23 @@ def choose_backend() -> str:
     chosen: str = os.environ.get("MUJOCO_GL", "").lower().strip()
     if chosen or not sys.platform.startswith("linux"):
         return chosen
+    backend = _first_working_backend()
+    if not backend:
+        raise RenderingError("no OpenGL library was found", INSTALL)
+    return backend
+
+
+@functools.cache
+def _first_working_backend() -> str:
+    """Try each backend in a process of its own, as a failed one spoils OpenGL for its process; empty if none works.
+
+    That takes seconds, so it is done once in a process, whatever comes out.
+    """
     already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
     for backend in (*(("glfw",) if has_display() else ()), "egl", "osmesa"):
         if already in ("", "glx", backend) and _works(backend):
             return str(backend)
-    raise RenderingError("no OpenGL library was found", INSTALL)
+    return ""
 
 
 def _works(backend: str) -> bool:

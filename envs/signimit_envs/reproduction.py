@@ -55,7 +55,7 @@ def reproduce(
     if not isinstance(arm, TabletopHandEnv):
         raise InvalidInputError("environment", "signimit/TabletopHand-v0", type(arm).__name__)
     observation, _ = arm.reset(options={"objects": objects, "hand": hand})
-    move = _with_state(policy)
+    move = hand_velocities(policy)
     path, commanded = [observation["hand"]], []
     for _ in range(round(seconds * CONTROL_RATE)):
         if each_step is not None:
@@ -73,8 +73,12 @@ def reproduce(
     return HandTrack(np.array(path), np.array(commanded).reshape(-1, 2))
 
 
-def _with_state(policy: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    """Give policies with and without a state one face."""
+def hand_velocities(policy: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
+    """Give policies with and without a state one face: hand (2,), m, to velocity (2,), m/s, from one call to the next.
+
+    Args:
+        policy: One that keeps a state has ``start() -> state`` and ``step(state, hand) -> (state, velocity)``.
+    """
     if not (hasattr(policy, "start") and hasattr(policy, "step")):
         return lambda hand: np.asarray(policy(hand), dtype=np.float64)
     state = policy.start()

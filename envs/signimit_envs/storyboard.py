@@ -1,7 +1,7 @@
 """The story of a session, shot by shot, as in the paper's figure 1: what is to be seen, before any of it is drawn.
 
 A: the interactant signs. B: the demonstrator answers. After all demonstrations a card says what the robot understood.
-C: the interactant signs again, in a new scene. D: the robot answers.
+C: the interactant signs again, in a new scene. D: the robot answers. Demonstrations are numbered from 0, as everywhere.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ def show_demonstration(result: SessionResult, number: int, haste: int) -> Iterat
     """Show the signs being made (A) and the demonstrator's answer (B), ``haste`` times faster than they were."""
     demonstrations = result.session.demonstrations
     demonstration, count = demonstrations[number], len(demonstrations)
-    title = f"Demonstration {number + 1} of {count}" + (f", {haste} times faster" if haste > 1 else "")
+    title = f"Demonstration {number} (0 to {count - 1})" + (f", {haste} times faster" if haste > 1 else "")
     scene = Shot(phase="A", caption=f"{title}: the interactant signs", objects=demonstration.objects)
     yield from _signing(scene, demonstration.signs, haste)
     scene = replace(
@@ -96,7 +96,7 @@ def show_card(result: SessionResult) -> Iterator[Shot]:
     """Show what the robot understood, as told by its model."""
     model = result.model
     order = model.word_order
-    groups = [", ".join(str(t + 1) for t in movement.members) for movement in model.movements]
+    groups = [", ".join(str(t) for t in movement.members) for movement in model.movements]
     lines = (
         "What the robot understood, without having been told anything:",
         "",

@@ -54,7 +54,8 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
 
     Reward:
         1 at the step where the request is seen to be fulfilled for the first time, else 0. The path of up to the last
-        12 s is looked at every half second, first after 1.5 s; `signimit.performed` is the judge.
+        12 s is looked at every half second, first after 1.5 s: a look costs ten steps, so the reward may come up to
+        half a second after the deed. `signimit.performed` is the judge.
 
     Starting state:
         What ``reset(options=...)`` gives of ``movement``, ``focus``, ``objects`` (O, 2), ``hand`` (2,) and ``signs``

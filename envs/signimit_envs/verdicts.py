@@ -15,6 +15,7 @@ from signimit.frames import TablePolicy
 from signimit.grouping import group_movements
 from signimit.learning import ImitationModel
 from signimit.similarity import maximum_similarities, policy_distances
+from signimit_envs.reproduction import hand_velocities
 from signimit_envs.scene import CONTROL_RATE
 from signimit_envs.session import Reproduction, SessionResult
 
@@ -154,12 +155,7 @@ def failing_stage(result: SessionResult, reproduction: Reproduction) -> str:
 
 def ideal_path(policy: TablePolicy, hand: NDArray[np.float64], seconds: float) -> NDArray[np.float64]:
     """Move a point, not an arm, by a policy at the environments' control rate, shape (T, 2), m."""
-    path = [hand]
-    state = policy.start() if hasattr(policy, "start") else None
-    for _ in range(int(seconds * CONTROL_RATE)):
-        if hasattr(policy, "step"):
-            state, velocity = policy.step(state, path[-1])
-        else:
-            velocity = policy(path[-1])
-        path.append(path[-1] + velocity / CONTROL_RATE)
+    path, move = [hand], hand_velocities(policy)
+    for _ in range(round(seconds * CONTROL_RATE)):
+        path.append(path[-1] + move(path[-1]) / CONTROL_RATE)
     return np.array(path)

@@ -26,3 +26,12 @@ def test_nothing_is_left_of_a_failed_file(tmp_path: Path) -> None:
     with pytest.raises(RuntimeError, match="power cut"):
         fail()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ["nowhere/a.txt", "folder"])
+def test_a_place_where_no_file_can_be_is_named_as_the_caller_named_it(tmp_path: Path, name: str) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(OSError, match="directory") as error, replaced_file(tmp_path / name):
+        pass
+    assert error.value.filename == str(tmp_path / name)
+    assert [p.name for p in tmp_path.iterdir()] == ["folder"]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from signimit.command_line import run_program
+from signimit.command_line import PIPE_CLOSED, run_program
 from signimit.exceptions import InvalidInputError
 
 pytest.importorskip("tyro")
@@ -84,3 +85,14 @@ def test_the_help_does_not_repeat_the_arguments(
     assert "Say a word." in said
     assert "What to say." in said
     assert "Args:" not in said
+
+
+def test_a_reader_who_has_seen_enough_ends_a_program_quietly() -> None:
+    body = "def main() -> None:\n    print('x' * 2**20)\n"
+    script = f"from signimit.command_line import run_program\n{body}run_program(main)"
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+        assert program.stdout is not None
+        assert program.stderr is not None
+        program.stdout.close()
+        assert program.stderr.read() == b""
+    assert program.returncode == PIPE_CLOSED

@@ -166,3 +166,8 @@ def test_a_file_that_lies_is_told_with_file_demonstration_and_field(
     with pytest.raises(FileFormatError) as caught:
         DemonstrationSet.load(path)
     assert str(caught.value) == f"{path}: {sentence}"
+
+
+def test_sizes_are_shown_not_arrays(demonstrations: DemonstrationSet) -> None:
+    assert repr(demonstrations[1]) == "Demonstration(signs=2, objects=2, samples=3)"
+    assert repr(demonstrations) == "DemonstrationSet(2 demonstrations, signs=2, objects=2)"

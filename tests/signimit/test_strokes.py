@@ -147,3 +147,10 @@ def test_what_was_flattened_can_be_cut_apart() -> None:
     assert [p.tolist() for p in cut(points, "points", offsets)] == [p.tolist() for p, _ in parts]
     assert [t.tolist() for t in cut(times, "times", offsets)] == [t.tolist() for _, t in parts]
     assert cut(np.zeros((0, 2)), "points", np.array([0])) == []
+
+
+def test_a_library_shows_counts_not_arrays() -> None:
+    strokes = [Stroke(np.array([[0.0, 0.0], [1.0, 2.0]]), np.array([0.5, 2.0]))] * 3
+    assert repr(strokes[0]) == "Stroke(2 points, 1.50 s)"
+    library = StrokeLibrary(tuple(strokes), ("4", "4", "7"), ("ann",) * 3, "synthetic")
+    assert repr(library) == "StrokeLibrary(3 strokes, 2 labels, 1 writer, source='synthetic')"

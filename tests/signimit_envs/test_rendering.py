@@ -75,13 +75,29 @@ def test_no_backend_that_fails_is_chosen(monkeypatch: pytest.MonkeyPatch) -> Non
             return backend == wanted
 
         monkeypatch.setattr(rendering, "_works", works)
-        assert choose_backend.__wrapped__() == expected
+        rendering._first_working_backend.cache_clear()
+        assert choose_backend() == expected
+    rendering._first_working_backend.cache_clear()
     assert asked == ["egl", "egl", "osmesa"]
 
 
 def test_the_users_choice_is_respected(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("MUJOCO_GL", "OSMesa ")
-    assert choose_backend.__wrapped__() == "osmesa"
+    assert choose_backend() == "osmesa"
+
+
+def test_no_backend_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("MUJOCO_GL", "PYOPENGL_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr(sys, "platform", "linux")
+    asked: list[str] = []
+    monkeypatch.setattr(rendering, "_works", lambda backend: bool(asked.append(backend)))
+    rendering._first_working_backend.cache_clear()
+    for _ in range(2):
+        with pytest.raises(RenderingError, match="no OpenGL library was found"):
+            choose_backend()
+    rendering._first_working_backend.cache_clear()
+    assert asked == ["egl", "osmesa"]
 
 
 def test_mujocos_private_switch_is_where_it_is_expected() -> None:
