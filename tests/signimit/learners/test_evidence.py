@@ -48,9 +48,16 @@ def test_the_ratio_of_two_normal_densities_is_that_of_the_hand() -> None:
 
 
 def test_the_scale_of_a_session_lies_between_what_was_expected_and_what_was_seen() -> None:
+    """The lower quartile of n equal logarithms x, moved by 0.674 spreads, weighs n against the prior's 1."""
     assert HAND.posterior_mean(np.array([]), 5) == 0
-    assert HAND.posterior_mean(np.exp([1.0, 1.0]), 2) == pytest.approx(2 / 3)
-    assert HAND.posterior_mean(np.exp(np.full(100, 1.0)), 2) == pytest.approx(2 / 3)  # pairs carry no more than N
+    assert HAND.posterior_mean(np.exp([1.0, 1.0]), 2) == pytest.approx(2 * 1.674 / 3)
+    assert HAND.posterior_mean(np.exp(np.full(100, 1.0)), 2) == pytest.approx(2 * 1.674 / 3)  # N things, no more news
+
+
+def test_pairs_of_two_movements_taken_for_one_do_not_move_the_scale_much() -> None:
+    equals, across = np.exp(np.full(40, -1.0)), np.exp(np.full(60, 0.5))
+    alone, mixed = (DRAWINGS.posterior_mean(d, 12) for d in (equals, np.concatenate([equals, across])))
+    assert mixed == pytest.approx(alone)
 
 
 def test_an_unexpected_scale_costs() -> None:

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, WordOrder
-from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
+from signimit.learners.vocabulary import SignFeatures, VocabularyReader, sign_distances, sign_features
 from signimit.people import synthetic_library
 from signimit.understanding import Understanding
 
@@ -19,14 +19,18 @@ def digits() -> list[Array]:
     return [stroke.points for stroke in library.strokes]
 
 
-def slow_distance(first: Array, second: Array) -> float:
-    """Dynamic time warping of Euclidean costs, over the number of samples, as the recurrence has it."""
-    total = np.full((len(first) + 1, len(second) + 1), np.inf)
+def slow_distance(first: SignFeatures, second: SignFeatures, i: int, k: int) -> float:
+    """The geometric mean of the warped distance of courses and the nearest-point distance of pictures."""
+    a, b = first.courses[i], second.courses[k]
+    total = np.full((len(a) + 1, len(b) + 1), np.inf)
     total[0, 0] = 0.0
-    for i, a in enumerate(first):
-        for j, b in enumerate(second):
-            total[i + 1, j + 1] = np.linalg.norm(a - b) + min(total[i, j + 1], total[i + 1, j], total[i, j])
-    return float(total[-1, -1] / len(first))
+    for x, y in np.ndindex(len(a), len(b)):
+        cheapest = min(total[x, y + 1], total[x + 1, y], total[x, y])
+        total[x + 1, y + 1] = np.linalg.norm(a[x] - b[y]) + cheapest
+    p, q = first.pictures[i], second.pictures[k]
+    there = np.mean([min(np.linalg.norm(u - v) for v in q) for u in p])
+    back = np.mean([min(np.linalg.norm(u - v) for u in p) for v in q])
+    return float(np.sqrt(total[-1, -1] / len(a) * (there + back) / 2))
 
 
 def reader(signs: list[Array], objects: int = 3) -> VocabularyReader:
@@ -35,15 +39,21 @@ def reader(signs: list[Array], objects: int = 3) -> VocabularyReader:
     return VocabularyReader((features, features), Understanding(meaning, meaning, WordOrder(0, 1), {}), objects)
 
 
-def test_the_distance_of_signs_is_that_of_the_plain_recurrence(digits: list[Array]) -> None:
+def test_the_distance_of_signs_is_that_of_plain_loops(digits: list[Array]) -> None:
     features = sign_features(digits)
-    slow = [[slow_distance(a, b) for b in features] for a in features]
-    np.testing.assert_allclose(sign_distances(features), slow, rtol=1e-6, atol=1e-6)
+    slow = [[slow_distance(features, features, i, k) for k in range(0, 9, 2)] for i in range(0, 9, 2)]
+    np.testing.assert_allclose(sign_distances(features)[::2, ::2], slow, rtol=1e-6, atol=1e-6)
 
 
 def test_where_and_how_large_a_sign_is_made_does_not_matter(digits: list[Array]) -> None:
     moved = [1000 * sign + [5.0, -3.0] for sign in digits]
-    np.testing.assert_allclose(sign_features(moved), sign_features(digits), atol=1e-9)
+    for ours, theirs in zip(sign_features(moved), sign_features(digits), strict=True):
+        np.testing.assert_allclose(ours, theirs, atol=1e-9)
+
+
+def test_a_sign_begun_at_its_other_end_is_nearer_than_another_sign(digits: list[Array]) -> None:
+    ones = sign_distances(sign_features([digits[0], digits[1][::-1], digits[4]]))
+    assert ones[0, 1] < ones[0, 2]
 
 
 def test_equal_signs_are_nearer_than_others(digits: list[Array]) -> None:
@@ -78,4 +88,5 @@ def test_a_point_is_no_sign() -> None:
 
 
 def test_a_straight_sign_is_a_sign() -> None:
-    assert np.isfinite(sign_features([[[0, 0], [0, 1]]])).all()
+    features = sign_features([[[0, 0], [0, 1]], [[0, 0], [1, 0]]])
+    assert np.isfinite(sign_distances(features)).all()
