@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.archive import read_archive, write_archive
-from signimit.demonstrations import DemonstrationSet
+from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.explanation import Reasons, explain_understanding
 from signimit.frames import TablePolicy, on_table
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
@@ -21,7 +22,7 @@ from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, make_policy
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke, cut, flatten
 from signimit.summary import summarise
-from signimit.understanding import SignReader, Understanding
+from signimit.understanding import IncrementalLearner, SignReader, Understanding
 from signimit.validation import finite_array, item_list, make_generator, moving_points, whole_numbers
 
 KIND, VERSION = "imitation model", 1
@@ -147,6 +148,27 @@ class ImitationModel:
             _, paths, times = self.movements[movement]
             self._policies[movement] = make_policy(list(paths), list(times), kind=self.policy_kind)
         return self._policies[movement]
+
+    def observe(self, demonstration: Demonstration) -> Self:
+        """Return a model that has seen one demonstration more; N distances are measured, not N² as by `learn`.
+
+        Raises:
+            InvalidInputError: If it differs in words or objects from the others, or the method cannot go on.
+        """
+        learner = get_learner(self.method)
+        if not isinstance(learner, IncrementalLearner):
+            raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
+        demos = DemonstrationSet([*self.demonstrations, demonstration])
+        understanding = _frozen(learner.extend(demos, self.understanding))
+        return type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
+
+    def explain(self) -> Reasons:
+        """Say why: how sure each focus and movement is, what is ambiguous, what speaks for the word order.
+
+        Raises:
+            InvalidInputError: If the method has no probabilities to tell.
+        """
+        return explain_understanding(self.understanding, self.demonstrations.objects)
 
     def summary(self) -> str:
         """Say in words what was understood."""

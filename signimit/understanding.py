@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,4 +61,13 @@ class Learner(Protocol):
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
     ) -> SignReader:
         """Make the reader of new utterances; it depends on nothing else, so that a saved model can make it again."""
+        ...
+
+
+@runtime_checkable
+class IncrementalLearner(Protocol):
+    """A learner that takes one demonstration after another."""
+
+    def extend(self, demonstrations: DemonstrationSet, understanding: Understanding) -> Understanding:
+        """Infer from all demonstrations, given what was understood of all but the last."""
         ...

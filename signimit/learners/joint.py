@@ -21,6 +21,7 @@ from signimit.demonstrations import DemonstrationSet
 from signimit.grouping import canonical_labels
 from signimit.inference import WordOrder
 from signimit.learners.evidence import DRAWINGS, SIGNS
+from signimit.learners.incremental import extended_distances
 from signimit.learners.places import common_place_evidence
 from signimit.learners.search import (
     Explanation,
@@ -76,11 +77,14 @@ class JointLearner:
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, rng: np.random.Generator
     ) -> Understanding:
         """Compare all word orders and return the best explanation; nothing is random."""
-        seen = look(demonstrations)
-        orders = _word_orders(len(seen.signs))
-        best = [max(_hypotheses(seen, order), key=lambda h: h.score) for order in orders]
-        chosen = max(best, key=lambda h: h.score)
-        return _understanding(seen, chosen, {h.order: h.score for h in best})
+        return _conclude(look(demonstrations))
+
+    def extend(self, demonstrations: DemonstrationSet, understanding: Understanding) -> Understanding:
+        """Take one more demonstration, the last, into account.
+
+        Only its distances are measured. The search, which costs less, starts anew: early mistakes are not kept.
+        """
+        return _conclude(Seen(*extended_distances(demonstrations, understanding.diagnostics)))
 
     def reader(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
@@ -98,6 +102,13 @@ def look(demonstrations: DemonstrationSet) -> Seen:
     signs = [sign_distances(sign_features([d.signs[w] for d in demonstrations])) for w in range(words)]
     place = common_place_evidence(np.stack([t.centre for t in traces]), objects)
     return Seen(trace_distances(traces, objects), np.stack(signs), place)
+
+
+def _conclude(seen: Seen) -> Understanding:
+    orders = _word_orders(len(seen.signs))
+    best = [max(_hypotheses(seen, order), key=lambda h: h.score) for order in orders]
+    chosen = max(best, key=lambda h: h.score)
+    return _understanding(seen, chosen, {h.order: h.score for h in best})
 
 
 def _word_orders(words: int) -> list[WordOrder]:
