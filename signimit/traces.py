@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.acceleration import kernels_for
 from signimit.recurrence import drawing_start
 
 SAMPLES = 64
@@ -80,7 +81,11 @@ def trace_distances(traces: Sequence[Trace], objects: NDArray[np.float64]) -> ND
         ``[t, k, i, j] == [k, t, j, i]``.
     """
     framed = _framed(traces, objects)
-    one_way = np.stack([cross_distances(framed[t], framed) for t in range(len(traces))])
+    kernels = kernels_for((framed.shape[0] * framed.shape[1] * SAMPLES) ** 2)
+    if kernels is None:
+        one_way = np.stack([cross_distances(framed[t], framed) for t in range(len(traces))])
+    else:
+        one_way = kernels.drawing_distances(framed)
     return np.asarray((one_way + one_way.transpose(1, 0, 3, 2)) / 2)
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from signimit import acceleration, group_movements, policy_distances
 from signimit.similarity import maximum_similarities
+from signimit.traces import Trace, trace_distances
 
 Array = NDArray[np.float64]
 
@@ -23,6 +24,12 @@ def loops(count: int, seed: int) -> tuple[list[Array], Array]:
         circle = 0.1 * np.column_stack([np.cos(angles), np.sin(angles) * (-1) ** t])
         paths.append(circle + rng.normal(0, 0.002, circle.shape) + rng.uniform(-0.2, 0.2, 2))
     return paths, rng.uniform(-0.2, 0.2, (count, 3, 2))
+
+
+def traces(count: int, seed: int) -> tuple[list[Trace], Array]:
+    rng = np.random.default_rng(seed)
+    made = [Trace(rng.normal(size=(64, 2)), rng.normal(size=(64, 3)), 1.0 + t, np.zeros(2)) for t in range(count)]
+    return made, rng.normal(size=(count, 3, 2))
 
 
 @pytest.fixture
@@ -42,6 +49,17 @@ def test_compiled_policy_distances_are_the_plain_ones(monkeypatch: pytest.Monkey
     np.testing.assert_allclose(compiled, plain, rtol=1e-9, atol=1e-12)
     ours, theirs = (group_movements(maximum_similarities(d), rng=1).labels for d in (compiled, plain))
     np.testing.assert_array_equal(ours, theirs)
+
+
+def test_compiled_drawing_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    drawings, objects = traces(6, 0)
+    plain = trace_distances(drawings, objects)
+    monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
+    compiled = trace_distances(drawings, objects)
+    others = ~np.eye(6, dtype=bool)
+    np.testing.assert_allclose(compiled[others], plain[others], rtol=1e-4)
+    np.testing.assert_allclose(compiled, plain, atol=2e-3)
 
 
 @pytest.mark.usefixtures("always")
