@@ -128,7 +128,10 @@ def scaling(counts: tuple[int, ...], out: Path) -> None:
     """Measure how time and memory grow with the number of demonstrations."""
     found = []
     for measurement in measure_growth(counts, LONGEST):
-        print("{:5d} demonstrations, {:24s}{:9.3f} s {:8.1f} MB".format(*measurement), flush=True)
+        print(
+            "{:5d} demonstrations, {:24s}{:9.3f} s, {:9.3f} s of processors, {:8.1f} MB".format(*measurement),
+            flush=True,
+        )
         found.append(measurement)
     with whole_files(out) as folder:
         write_csv(folder / "scaling.csv", Measurement._fields, found)

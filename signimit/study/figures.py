@@ -61,9 +61,9 @@ def draw_growth(measurements: Sequence[Measurement]) -> Figure:
     for step, colour in zip(STEPS, (BLUE, GREY, "#b35806"), strict=True):
         mine = [m for m in measurements if m.step == step]
         count = [m.demonstrations for m in mine]
-        panels[0].loglog(count, [m.seconds for m in mine], "o-", color=colour, label=step)
+        panels[0].loglog(count, [m.processor_seconds for m in mine], "o-", color=colour, label=step)
         panels[1].loglog(count, [max(m.megabytes, 0.1) for m in mine], "o-", color=colour)
-    panels[0].set(xlabel="demonstrations", ylabel="seconds")
+    panels[0].set(xlabel="demonstrations", ylabel="processor seconds")
     panels[1].set(xlabel="demonstrations", ylabel="memory above the start, MB")
     panels[0].legend(fontsize=8, frameon=False)
     return figure
