@@ -40,7 +40,7 @@ def main(
     Args:
         out: Folder for the results.
         method: How to learn; "paper" is the paper.
-        policy: Kind of policy that moves the hand.
+        policy: Kind of policy that moves the hand; "knn" is the paper's.
         seed: Decides people, scenes and everything else that is drawn. 35 is the first with which synthetic people
             repeat all of the paper's result; sessions.py shows what other seeds give.
         attempts: How often each of the nine pairs of signs is asked for.
@@ -59,9 +59,9 @@ def main(
     rng = np.random.default_rng([seed, 1])
     cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
     print(f"The signs are made by {cast.names[0]}, the movements by {cast.names[1]}.")
-    result = run_session(plan, cast, lambda commands: tqdm(commands, "obeying", unit="command"))
-    print(f"\n{result.model.summary()}\n\n{inference_lines(result)}\n\n{session_table(result)}\n")
     with whole_files(out) as folder:
+        result = run_session(plan, cast, lambda commands: tqdm(commands, "obeying", unit="command"))
+        print(f"\n{result.model.summary()}\n\n{inference_lines(result)}\n\n{session_table(result)}\n")
         text = json.dumps(session_report(result, cast), indent=1, allow_nan=False)
         (folder / "results.json").write_text(text + "\n", encoding="utf-8")
         write_figures(result, folder)

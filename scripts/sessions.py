@@ -46,12 +46,12 @@ def main(
     if sessions < 1:
         raise InvalidInputError("sessions", "at least 1", f"{sessions}")
     outcomes: list[SessionOutcome] = []
-    for seed in tqdm(range(first_seed, first_seed + sessions), "sessions"):
-        plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
-        cast = cast_people(plan.language, np.random.default_rng([seed, 1]), Source(signs), Source(movements))
-        outcomes.append(session_outcome(run_session(plan, cast)))
-    print(study_table(outcomes))
     with whole_files(out) as folder:
+        for seed in tqdm(range(first_seed, first_seed + sessions), "sessions"):
+            plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
+            cast = cast_people(plan.language, np.random.default_rng([seed, 1]), Source(signs), Source(movements))
+            outcomes.append(session_outcome(run_session(plan, cast)))
+        print(study_table(outcomes))
         text = json.dumps(study_report(outcomes, method, policy), indent=1)
         (folder / "sessions.json").write_text(text + "\n", encoding="utf-8")
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import inspect
 import os
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from types import FrameType
 
 from signimit.exceptions import MissingDependencyError, SignimitError
 
@@ -23,6 +25,7 @@ def run_program(program: Callable[..., None]) -> None:
     Args:
         program: Its signature gives the options, its docstring the help.
     """
+    signal.signal(signal.SIGTERM, _stop)
     try:
         import tyro
 
@@ -38,6 +41,11 @@ def run_program(program: Callable[..., None]) -> None:
     except KeyboardInterrupt:
         sys.stderr.write("\nstopped\n")
         sys.exit(130)
+
+
+def _stop(number: int, frame: FrameType | None) -> None:
+    """Leave by way of every ``finally``, so that drafts of files are removed."""
+    sys.exit(128 + number)
 
 
 def _sentence(error: Exception) -> str:

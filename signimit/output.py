@@ -26,12 +26,16 @@ def whole_files(folder: str | os.PathLike[str]) -> Iterator[Path]:
 
     Raises:
         InvalidInputError: If ``folder`` is a file.
+        OSError: If it cannot be made.
     """
     target = Path(folder)
     if target.exists() and not target.is_dir():
         raise InvalidInputError(str(target), "a folder, or nothing yet", "a file")
     target.parent.mkdir(parents=True, exist_ok=True)
-    draft = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part"))
+    try:
+        draft = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part"))
+    except OSError as error:  # the user knows the target, not the folder beside it
+        raise OSError(error.errno, error.strerror, str(target)) from None
     try:
         yield draft
         target.mkdir(exist_ok=True)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
-from signimit.validation import finite_array, increasing_times, moving_points
+from signimit.validation import float_array, increasing_times, moving_points
 
 KIND, VERSION = "stroke library", 1
 
@@ -189,10 +189,12 @@ def flatten(
 def cut(flat: ArrayLike, where: str, offsets: ArrayLike) -> list[NDArray[np.float64]]:
     """Undo `flatten`: cut points, shape (T, 2), or times, shape (T,), at their offsets.
 
+    Whether the numbers are finite is left to whoever knows what each part is.
+
     Raises:
         InvalidInputError: If they are not numbers, or the offsets do not cut them.
     """
-    array = finite_array(flat, where, (None,) if np.ndim(flat) == 1 else (None, 2))
+    array = float_array(flat, where, (None,) if np.ndim(flat) == 1 else (None, 2))
     at = np.asarray(offsets)
     sane = at.ndim == 1 and at.dtype.kind in "iu" and len(at) > 0
     at = at.astype(np.int64) if sane else at

@@ -29,13 +29,7 @@ def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) ->
     Raises:
         InvalidInputError: If it is not numeric, has another shape or is not finite, or beyond 1e100.
     """
-    sizes = ", ".join("n" if s is None else str(s) for s in shape)
-    wanted = f"numbers of shape ({sizes}{',' * (len(shape) == 1)})"
-    array = _float_array(value, where, wanted)
-    if array.ndim != len(shape) or any(
-        want is not None and want != have for want, have in zip(shape, array.shape, strict=True)
-    ):
-        raise InvalidInputError(where, wanted, f"shape {array.shape}")
+    array = float_array(value, where, shape)
     bad = np.argwhere(~(np.abs(array) <= LARGEST))  # a comparison with NaN is false
     if len(bad):
         at = ", ".join(str(i) for i in bad[0])
@@ -44,7 +38,23 @@ def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) ->
     return array
 
 
-def _float_array(value: ArrayLike, where: str, wanted: str) -> NDArray[np.float64]:
+def float_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) -> NDArray[np.float64]:
+    """Copy ``value`` as `finite_array` does, but let pass what is not finite.
+
+    Raises:
+        InvalidInputError: If it is not numeric or has another shape.
+    """
+    sizes = ", ".join("n" if s is None else str(s) for s in shape)
+    wanted = f"numbers of shape ({sizes}{',' * (len(shape) == 1)})"
+    array = _as_floats(value, where, wanted)
+    if array.ndim != len(shape) or any(
+        want is not None and want != have for want, have in zip(shape, array.shape, strict=True)
+    ):
+        raise InvalidInputError(where, wanted, f"shape {array.shape}")
+    return array
+
+
+def _as_floats(value: ArrayLike, where: str, wanted: str) -> NDArray[np.float64]:
     """Copy integers, booleans or floats; text that looks like numbers and complex numbers are something else."""
     try:
         raw = np.asarray(value)

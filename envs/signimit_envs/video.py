@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError
+from signimit.atomic import replaced_path
 from signimit_envs.scene import CONTROL_RATE
 
 
@@ -27,19 +27,13 @@ def write_video(path: str | os.PathLike[str], frames: Iterable[NDArray[np.uint8]
         The number of frames.
 
     Raises:
-        InvalidInputError: If there are no frames, or they are not alike; nothing is left behind then.
+        InvalidInputError: If there are no frames, they are not alike, or the file is not to be an mp4; nothing is left
+            behind then.
     """
-    target = Path(path)
-    handle, name = tempfile.mkstemp(suffix=".mp4", prefix=f".{target.stem}-", dir=target.parent)
-    os.close(handle)
-    beside = Path(name)
-    try:
-        count = _stream(beside, frames, rate)
-        beside.chmod(0o644)
-        beside.replace(target)
-    finally:
-        beside.unlink(missing_ok=True)
-    return count
+    if Path(path).suffix.lower() != ".mp4":
+        raise InvalidInputError("video", "a name that ends in .mp4", os.fspath(path))
+    with replaced_path(path, ".mp4") as beside:
+        return _stream(beside, frames, rate)
 
 
 def _stream(path: Path, frames: Iterable[NDArray[np.uint8]], rate: float) -> int:

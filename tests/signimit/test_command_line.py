@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -96,3 +97,12 @@ def test_a_reader_who_has_seen_enough_ends_a_program_quietly() -> None:
         program.stdout.close()
         assert program.stderr.read() == b""
     assert program.returncode == PIPE_CLOSED
+
+
+def test_a_program_that_is_terminated_removes_its_drafts(tmp_path: Path) -> None:
+    body = "def main() -> None:\n    with whole_files('out'):\n        os.kill(os.getpid(), signal.SIGTERM)\n"
+    ours = "from signimit.command_line import run_program\nfrom signimit.output import whole_files\n"
+    script = f"import os, signal\n{ours}{body}run_program(main)"
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=False)
+    assert done.returncode == 128 + signal.SIGTERM
+    assert list(tmp_path.iterdir()) == []

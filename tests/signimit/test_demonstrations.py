@@ -139,7 +139,10 @@ def test_the_file_holds_nothing_but_what_may_be_seen(demonstrations: Demonstrati
         ({"objects": np.zeros((2, 4))}, "objects: expected numbers of shape (n, n, 2), found shape (2, 4)."),
         ({"objects": np.zeros((2, 0, 2))}, "demonstration 0: objects: expected at least one position, found none."),
         ({"hand": np.zeros((7, 2))}, "demonstration 0: hand: expected points that move, found 4 points in one place."),
-        ({"times": np.array([0, 1, 2, 3, 0, 1, np.nan])}, "times: expected finite numbers, found nan at index (6)."),
+        (
+            {"times": np.array([0, 1, 2, 3, 0, 1, np.nan])},
+            "demonstration 1: times: expected finite numbers, found nan at index (2).",
+        ),
         ({"times": np.array([0.0, 1, 2, 3, 0, 2, 1])}, "demonstration 1: times: expected strictly increasing seconds, "
          "found 2 then 1 at index 1."),
         ({"hand_offsets": np.array([0, 4, 8])},

@@ -60,3 +60,9 @@ def test_frames_that_make_no_video_are_refused(images: list[NDArray[np.uint8]], 
     with pytest.raises(signimit.InvalidInputError, match=message):
         write_video(tmp_path / "a.mp4", images)
     assert os.listdir(tmp_path) == []
+
+
+def test_a_video_is_an_mp4(tmp_path: Path) -> None:
+    with pytest.raises(signimit.InvalidInputError, match=r"expected a name that ends in \.mp4, found"):
+        write_video(tmp_path / "a.txt", frames(1))
+    assert os.listdir(tmp_path) == []
