@@ -16,7 +16,7 @@ from signimit.exceptions import InvalidInputError
 def whole_files(folder: str | os.PathLike[str]) -> Iterator[Path]:
     """Write files into a hidden folder beside ``folder``, and move them there once all are done.
 
-    Files of the same names are replaced, others stay.
+    Files of the same names are replaced, others stay. Folders on the way there are made at the end, too.
 
     Args:
         folder: Where the files shall be; made if it is missing.
@@ -31,14 +31,14 @@ def whole_files(folder: str | os.PathLike[str]) -> Iterator[Path]:
     target = Path(folder)
     if target.exists() and not target.is_dir():
         raise InvalidInputError(str(target), "a folder, or nothing yet", "a file")
-    target.parent.mkdir(parents=True, exist_ok=True)
+    near = next(place for place in target.absolute().parents if place.exists())
     try:
-        draft = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part"))
+        draft = Path(tempfile.mkdtemp(dir=near, prefix=f".{target.name}.", suffix=".part"))
     except OSError as error:  # the user knows the target, not the folder beside it
         raise OSError(error.errno, error.strerror, str(target)) from None
     try:
         yield draft
-        target.mkdir(exist_ok=True)
+        target.mkdir(parents=True, exist_ok=True)
         for file in sorted(draft.iterdir()):
             os.replace(file, target / file.name)
     finally:

@@ -45,3 +45,16 @@ def test_a_file_in_the_way_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InvalidInputError, match="expected a folder"), whole_files(tmp_path / "out"):
         pass
     assert (tmp_path / "out").read_text() == "mine"
+
+
+def test_no_folder_is_left_when_writing_deep_down_fails(tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError, match="stop"), whole_files(tmp_path / "a" / "b"):
+        raise RuntimeError("stop")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_made_is_named_as_the_caller_named_it(tmp_path: Path) -> None:
+    (tmp_path / "a").write_text("mine")
+    with pytest.raises(OSError, match="Not a directory") as error, whole_files(tmp_path / "a" / "b"):
+        pass
+    assert error.value.filename == str(tmp_path / "a" / "b")
