@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from signimit.policies.arclength import SpacedPath, arc_lengths, space_course, space_path
 from signimit.policies.barycentre import MeanPass, cut_passes, mean_pass
-from signimit.policies.overshoot import without_overshoot
 from signimit.policies.phase_alignment import PhaseAlignment, align_phases
 from signimit.policies.protocol import Array
+from signimit.policies.seam import mend_seam
 from signimit.strokes import Stroke
 
 COARSE, FINE = 110, 360  # points of a typical demonstration, to choose a course and to refine it
@@ -119,10 +119,8 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
             for one in cut_passes(path, alignment.phases, len(nodes), shortest)
         ]
         mean = _shared_part(mean_pass(passes), 0.0 if closed else 0.5 * len(paths))
-    if closed:
-        kept = without_overshoot(mean.points, scale)
-        mean = MeanPass(*(values[kept] for values in mean))
-    return Course(mean.points, mean.speeds, closed, scale, _reach_speed(paths, alignments))
+    line, speeds = mend_seam(mean.points, mean.speeds, scale) if closed else (mean.points, mean.speeds)
+    return Course(line, speeds, closed, scale, _reach_speed(paths, alignments))
 
 
 def _shared_part(mean: MeanPass, fewest: float) -> MeanPass:

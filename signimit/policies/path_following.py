@@ -24,7 +24,7 @@ from signimit.strokes import Stroke
 
 PULL = 15.0  # 1/s
 SURE = 0.05  # half sizes; a hand so close to the expected place is taken to be there
-NEAR = 0.2  # half sizes; closer, the phase moves on and the demonstrators' velocity counts
+NEAR = 0.12  # half sizes; closer, the phase moves on and the demonstrators' velocity counts
 LOST = 0.4  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
 ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
