@@ -22,6 +22,7 @@ from signimit.strokes import StrokeLibrary
 
 PEOPLE = 10  # synthetic, unless a library is given
 PORTRAYED = 8  # movements in a picture
+DOTS_PER_INCH = 50  # a picture of all is below 150 KB
 
 
 def main(
@@ -66,7 +67,7 @@ def main(
         lessons = [lesson for _, lesson in compose_lessons(library, plan)][: len(plan.labels)][:PORTRAYED]
         for kind in kinds:
             policies = [make_policy(lesson.paths, lesson.times, kind) for lesson in lessons]
-            draw_portraits(policies, lessons).savefig(folder / f"{kind}.png", dpi=70)
+            draw_portraits(policies, lessons).savefig(folder / f"{kind}.png", dpi=DOTS_PER_INCH)
     print(study_table(summaries))
     print(f"Written to {out}.")
 

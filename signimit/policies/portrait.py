@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 HALF_VIEW = 0.28  # m
 CORNERS = HALF_VIEW * np.array([[-0.85, -0.85], [0.85, -0.85], [0.85, 0.85], [-0.85, 0.85]])
 SECONDS = 12.0
+ARROWS = 15  # along each side
 REPRODUCTION = ("#d7301f", "#08589e", "#6a3d9a", "#b15928")
 DEMONSTRATION, FIELD = "#bdbdbd", "#4d4d4d"
 
@@ -54,7 +55,7 @@ def draw_portraits(policies: Sequence[Policy], lessons: Sequence[Lesson]) -> Fig
 def _draw_portrait(panel: Axes, policy: Policy, lesson: Lesson) -> None:
     for path in lesson.paths:
         panel.plot(*path.T, color=DEMONSTRATION, linewidth=0.8, zorder=1)
-    side = np.linspace(-HALF_VIEW, HALF_VIEW, 19)
+    side = np.linspace(-HALF_VIEW, HALF_VIEW, ARROWS)
     grid: Array = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
     velocity = policy(grid)
     panel.quiver(*grid.T, *velocity.T, color=FIELD, alpha=0.55, scale=9.0, width=0.003, zorder=2)
