@@ -91,7 +91,12 @@ def test_no_backend_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(sys, "platform", "linux")
     asked: list[str] = []
-    monkeypatch.setattr(rendering, "_works", lambda backend: bool(asked.append(backend)))
+
+    def fails(backend: str) -> bool:
+        asked.append(backend)
+        return False
+
+    monkeypatch.setattr(rendering, "_works", fails)
     rendering._first_working_backend.cache_clear()
     for _ in range(2):
         with pytest.raises(RenderingError, match="no OpenGL library was found"):
