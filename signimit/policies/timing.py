@@ -11,7 +11,7 @@ from signimit.policies.protocol import CONTROL_PERIOD, Array
 SLOWEST = 0.1  # of the mean speed: a longer pause is shortened
 FASTEST = 3.0  # of the mean speed: a glitch is slowed down
 MOST_NODES = 10_000  # control periods; what would take longer is done faster
-CORNER_ALLOWANCE = 1.035  # times the size: a mean of corners that do not quite meet lies inside them
+CORNER_ALLOWANCE = 1.03  # times the size: a mean of corners that do not quite meet lies inside them
 
 
 def time_course(course: Course) -> Array:
