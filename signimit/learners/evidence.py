@@ -99,14 +99,20 @@ def _log_normal(x: NDArray[np.float64], mean: float, spread: float) -> NDArray[n
 DRAWINGS = DistanceModel(
     equal_mean=-1.2,
     equal_mean_spread=0.2,
-    equal_spread=0.22,
+    equal_spread=0.23,
     other_mean=0.08,
     other_spread=0.30,
     odd_share=0.01,
-    akin_share=0.07,
+    akin_share=0.06,
     akin_mean=-0.7,
     akin_spread=0.2,
 )
 SIGNS = DistanceModel(
-    equal_mean=-0.8, equal_mean_spread=0.28, equal_spread=0.36, other_mean=0.15, other_spread=0.19, odd_share=0.3
+    equal_mean=-0.8,
+    equal_mean_spread=0.28,
+    equal_spread=0.42,
+    other_mean=0.15,
+    other_spread=0.19,
+    odd_share=0.3,
+    chance_share=0.05,
 )

@@ -24,11 +24,13 @@ from signimit.learners.evidence import DRAWINGS, SIGNS
 from signimit.learners.incremental import extended_distances
 from signimit.learners.places import common_place_evidence
 from signimit.learners.search import (
+    MOVEMENT_PRICE,
     Explanation,
     PairEvidence,
     conditional_scores,
     first_guesses,
     improve_explanation,
+    merge_groups,
 )
 from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
 from signimit.traces import make_trace, trace_distances
@@ -146,7 +148,19 @@ def _settle(
         scale = _implied_scale(seen, order, explanation)
         explanation = improve_explanation(weigh(seen, order, scale), explanation.labels, explanation.focus)
     prior = DRAWINGS.log_prior(scale.drawings) + SIGNS.log_prior(scale.signs)
-    return Hypothesis(order, explanation, scale, explanation.score + prior)
+    score = explanation.score + prior + _idle_words_score(seen, order, scale)
+    return Hypothesis(order, explanation, scale, score)
+
+
+def _idle_words_score(seen: Seen, order: WordOrder, scale: Scale) -> float:
+    """Score the best partition of each word that an order calls meaningless: every order has to explain all words."""
+    total = 0.0
+    for word in set(range(len(seen.signs))) - set(order):
+        alike = SIGNS.log_ratios(seen.signs[word], scale.signs)
+        np.fill_diagonal(alike, 0.0)
+        labels = merge_groups(alike)
+        total += alike[labels[:, None] == labels[None]].sum() / 2 - MOVEMENT_PRICE * (labels.max() + 1)
+    return float(total)
 
 
 def _implied_scale(seen: Seen, order: WordOrder, explanation: Explanation) -> Scale:

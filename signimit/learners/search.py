@@ -2,7 +2,8 @@
 
 The objective is one sum: for pairs in one movement the evidence of their drawings, seen from their foci, and of their
 movement words; for pairs with one focus the evidence of their focus words; for each demonstration the evidence of its
-place; and a price for each movement. A demonstration has one focus, the same for all its partners.
+place; less a price for each movement and for unequal sizes, since people show everything about equally often. A
+demonstration has one focus, the same for all its partners.
 """
 
 from __future__ import annotations
@@ -10,9 +11,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-MOVEMENT_PRICE = 8.0  # nats for each further movement: one odd sign among equals does not make a new movement
+MOVEMENT_PRICE = 3.0  # nats for each movement
+IMBALANCE_PRICE = 3.0  # nats for each unit of χ²: one odd demonstration among equals does not make a new movement
 
 
 class PairEvidence(NamedTuple):
@@ -52,7 +54,17 @@ def score_explanation(evidence: PairEvidence, labels: NDArray[np.int64], focus: 
     pairs = evidence.drawing[t, k, focus[t], focus[k]] + evidence.movement_word[t, k]
     total = pairs[one_movement].sum() + evidence.focus_word[t, k][one_focus].sum()
     total += evidence.place[np.arange(len(labels)), focus].sum()
-    return float(total - MOVEMENT_PRICE * len(np.unique(labels)))
+    sizes = np.unique(labels, return_counts=True)[1]
+    return float(total - _price(len(sizes), (sizes**2).sum(), len(labels)))
+
+
+def _price(movements: ArrayLike, squares: ArrayLike, count: int) -> NDArray[np.float64]:
+    """Price of a division of ``count`` demonstrations, nats, from the number of its movements and Σ of their sizes².
+
+    Besides the price of each movement it is Pearson's χ² against equal sizes, times `IMBALANCE_PRICE`.
+    """
+    chi_square = np.multiply(movements, squares) / count - count
+    return np.asarray(MOVEMENT_PRICE * np.asarray(movements) + IMBALANCE_PRICE * chi_square)
 
 
 def conditional_scores(
@@ -73,9 +85,19 @@ def conditional_scores(
     focused = np.zeros((count, frames))
     focused[others, focus] = 1.0
     scores = by_movement + (evidence.focus_word @ focused + evidence.place)[:, None, :]
-    # A movement without members, once t itself is gone, costs its price to open.
-    lonely = (member.sum(axis=0)[None] - member) == 0
-    return np.asarray(scores - MOVEMENT_PRICE * lonely[:, :, None])
+    return np.asarray(scores - _joining_prices(member.sum(axis=0)[None] - member)[:, :, None])
+
+
+def _joining_prices(sizes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Price of the division if t joins each movement, over that without t, shape (N, K + 1).
+
+    Args:
+        sizes: Members of each movement, t itself left out, shape (N, K + 1).
+    """
+    count = len(sizes)
+    before = (sizes > 0).sum(axis=1)[:, None]
+    squares = (sizes**2).sum(axis=1)[:, None]
+    return _price(before + (sizes == 0), squares + 2 * sizes + 1, count) - _price(before, squares, count)
 
 
 def improve_explanation(evidence: PairEvidence, labels: NDArray[np.int64], focus: NDArray[np.int64]) -> Explanation:

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from signimit.learners.search import (
+    IMBALANCE_PRICE,
     MOVEMENT_PRICE,
     PairEvidence,
     conditional_scores,
@@ -42,7 +43,9 @@ def random_answer(count: int, frames: int, seed: int) -> tuple[Labels, Labels]:
 
 def slow_score(evidence: PairEvidence, labels: Labels, focus: Labels) -> float:
     """The sum as the module's docstring says it."""
-    total = -MOVEMENT_PRICE * len(set(labels.tolist()))
+    members = [labels.tolist().count(m) for m in set(labels.tolist())]
+    even = len(labels) / len(members)
+    total = -MOVEMENT_PRICE * len(members) - IMBALANCE_PRICE * sum((n - even) ** 2 / even for n in members)
     for t in range(len(labels)):
         total += evidence.place[t, focus[t]]
         for k in range(t):
