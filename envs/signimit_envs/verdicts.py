@@ -13,6 +13,7 @@ from signimit.composition import GroundTruth
 from signimit.evaluation import performed
 from signimit.frames import TablePolicy
 from signimit.grouping import group_movements
+from signimit.intervals import wilson_interval
 from signimit.learning import ImitationModel
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit_envs.reproduction import hand_velocities
@@ -21,7 +22,6 @@ from signimit_envs.session import Reproduction, SessionResult
 
 RESTARTS = 51  # the paper's own run and 50 more
 STAGES = ("grouping", "focus", "word order", "sign", "policy", "physics")
-_Z = 1.959963984540054  # standard normal quantile of 0.975
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,8 @@ class Share:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Wilson's 95 % interval of the share (doi:10.1080/01621459.1927.10502953); (0, 1) of none."""
-        if not self.total:
-            return 0.0, 1.0
-        n, p = self.total, self.count / self.total
-        centre = (p + _Z**2 / (2 * n)) / (1 + _Z**2 / n)
-        half = _Z * float(np.sqrt(p * (1 - p) / n + _Z**2 / (4 * n * n))) / (1 + _Z**2 / n)
-        return max(0.0, centre - half), min(1.0, centre + half)
+        """Wilson's 95 % interval of the share; (0, 1) of none."""
+        return wilson_interval(self.count, self.total)
 
     def __str__(self) -> str:
         """Say e.g. ``36 of 36 (95 % interval 0.90 to 1.00)``."""

@@ -13,7 +13,6 @@ from signimit.learning import ImitationModel
 from signimit.study.cells import StudySession
 from signimit.study.methods import Answer
 
-_Z = 1.959963984540054  # standard normal quantile of 0.975
 BINS = 10
 
 
@@ -36,16 +35,6 @@ def judge(answer: Answer, truth: GroundTruth) -> Verdict:
     group = len(set(zip(ours, theirs, strict=True))) == len(set(ours)) == len(set(theirs))
     order = tuple(answer.order) == (truth.language.focus_word, truth.language.movement_word)
     return Verdict(group, bool((answer.focus == truth.focus).all()), order)
-
-
-def wilson_interval(count: int, total: int) -> tuple[float, float]:
-    """Compute Wilson's 95 % interval of a share (doi:10.1080/01621459.1927.10502953); (0, 1) of none."""
-    if not total:
-        return 0.0, 1.0
-    share, spread = count / total, _Z**2 / total
-    centre = (share + spread / 2) / (1 + spread)
-    half = float(np.sqrt(share * (1 - share) * spread + spread**2 / 4)) / (1 + spread)
-    return max(0.0, centre - half), min(1.0, centre + half)
 
 
 def confidences(model: ImitationModel, session: StudySession) -> list[tuple[float, bool]]:

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from signimit.intervals import wilson_interval
 from signimit.study.records import OURS, Record
-from signimit.study.scoring import wilson_interval
 
 
 class Row(NamedTuple):

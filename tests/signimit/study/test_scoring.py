@@ -8,7 +8,7 @@ pytest.importorskip("sklearn", reason="the study needs scikit-learn")
 from signimit import WordOrder, learn
 from signimit.study.cells import Cell, compose_session
 from signimit.study.methods import Answer
-from signimit.study.scoring import calibrate, confidences, judge, wilson_interval
+from signimit.study.scoring import calibrate, confidences, judge
 
 
 def test_a_verdict_does_not_care_how_movements_are_numbered() -> None:
@@ -18,12 +18,6 @@ def test_a_verdict_does_not_care_how_movements_are_numbered() -> None:
     assert judge(right._replace(labels=np.zeros(4, dtype=np.int64)), truth) == (False, True, True)
     assert judge(right._replace(focus=1 - truth.focus), truth) == (True, False, True)
     assert judge(right._replace(order=WordOrder(1, 0)), truth) == (True, True, False)
-
-
-def test_wilson_intervals_match_numbers_worked_by_hand() -> None:
-    assert wilson_interval(20, 20) == pytest.approx((0.8389, 1.0), abs=1e-4)
-    assert wilson_interval(5, 10) == pytest.approx((0.2366, 0.7634), abs=1e-4)
-    assert wilson_interval(0, 0) == (0, 1)
 
 
 def test_calibration_of_four_commands_by_hand() -> None:
