@@ -50,7 +50,7 @@ def same_partition(labels: NDArray[np.int64], others: NDArray[np.int64]) -> bool
         FILLERS,
         Language(unseen=(Request(0, 0), Request(1, 1), Request(2, 2), Request(0, 1))),
         Language(unseen=(Request(2, 0), Request(2, 1), Request(0, 2))),  # movement 2 about one object only
-        Language(movements=("circle", "square", "star", "zigzag"), movement_signs=("4", "5", "6", "8"), repetitions=1),
+        Language(movements=("circle", "square", "star", "zigzag"), movement_signs=("4", "5", "6", "0"), repetitions=1),
     ],
     ids=["plain", "swapped order", "filler word", "unseen pairs", "movement of one object", "four movements, once"],
 )
