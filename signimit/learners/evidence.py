@@ -1,7 +1,8 @@
 """What a distance says about two demonstrations meaning the same: calibrated log-likelihood ratios.
 
-The spreads below were measured on real people's strokes and are the same for everybody; only the typical distance of
-equals is learned anew in every session, because one person repeats themselves more closely than another.
+The means and spreads below were measured on real people's strokes, and the shares chosen by how many of their sessions
+were understood. They are the same for everybody; only the typical distance of equals is learned anew in every session,
+because one person repeats themselves more closely than another.
 """
 
 from __future__ import annotations
