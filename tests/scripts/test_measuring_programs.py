@@ -1,4 +1,4 @@
-"""The doctor and the benchmark print what they find."""
+"""The doctor and the speed program print what they find."""
 
 from __future__ import annotations
 
@@ -48,10 +48,10 @@ def test_the_doctor_explains_why_nothing_can_be_imported() -> None:
     assert "Traceback" not in done.stderr
 
 
-def test_the_benchmark_prints_ratios(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_speed_program_prints_ratios(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     pytest.importorskip("tyro")
     monkeypatch.setattr(measurements, "STEPS", 5)
-    run("benchmark.py", "env", "--repetitions", "1", monkeypatch=monkeypatch)
+    run("speed.py", "env", "--repetitions", "1", monkeypatch=monkeypatch)
     said = capsys.readouterr().out
     assert "signimit/Tabletop-v0" in said
     assert "signimit/TabletopHand-v0" in said
