@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import resources
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -20,9 +21,9 @@ for _array in (WORKSPACE, TABLE):
     _array.setflags(write=False)
 
 _EXTRA_OBJECTS = (  # name of the colour, rgba, geom type, size, height of its middle
-    ("violet", (0.50, 0.30, 0.68, 1), mujoco.mjtGeom.mjGEOM_ELLIPSOID, (0.042, 0.042, 0.046), 0.0),
-    ("orange", (0.88, 0.46, 0.10, 1), mujoco.mjtGeom.mjGEOM_BOX, (0.050, 0.020, 0.022), 0.022),
-    ("teal", (0.10, 0.56, 0.58, 1), mujoco.mjtGeom.mjGEOM_SPHERE, (0.022, 0.0, 0.0), 0.022),
+    ("violet", (0.50, 0.30, 0.68, 1), "ellipsoid", (0.042, 0.042, 0.046), 0.0),
+    ("orange", (0.88, 0.46, 0.10, 1), "box", (0.050, 0.020, 0.022), 0.022),
+    ("teal", (0.10, 0.56, 0.58, 1), "sphere", (0.022, 0.0, 0.0), 0.022),
 )
 OBJECT_NAMES = ("red", "green", "blue", *(name for name, *_ in _EXTRA_OBJECTS))
 
@@ -36,22 +37,37 @@ def compile_scene(objects: int = 3) -> mujoco.MjModel:
     Raises:
         InvalidInputError: If the number of objects is another.
     """
+    return mujoco.MjModel.from_xml_string(scene_xml(objects), scene_assets())
+
+
+def scene_xml(objects: int = 3) -> str:
+    """Write the MJCF that `compile_scene` compiles; with `scene_assets` it needs no other file.
+
+    Raises:
+        InvalidInputError: If the number of objects is not 2 to 6.
+    """
     if objects not in OBJECT_COUNTS:
         raise InvalidInputError("objects", f"{OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]}", repr(objects))
-    with resources.as_file(resources.files(signimit_assets)) as folder:
-        spec = mujoco.MjSpec.from_file(str(folder / "tabletop.xml"))
-        for number in range(objects, 3):
-            spec.delete(spec.body(f"object_{number}"))
-        for number in range(3, objects):
-            _add_object(spec, number)
-        return spec.compile()
+    root = ElementTree.fromstring((resources.files(signimit_assets) / "tabletop.xml").read_bytes())
+    (world,) = root.iter("worldbody")
+    for body in world.findall("body[@mocap='true']")[objects:]:
+        world.remove(body)
+    for number in range(3, objects):
+        world.append(_extra_object(number))
+    return ElementTree.tostring(root, encoding="unicode")
 
 
-def _add_object(spec: mujoco.MjSpec, number: int) -> None:
+def scene_assets() -> dict[str, bytes]:
+    """Return the files that the MJCF names, by name."""
+    return {"wood.png": (resources.files(signimit_assets) / "wood.png").read_bytes()}
+
+
+def _extra_object(number: int) -> ElementTree.Element:
     _, rgba, shape, size, height = _EXTRA_OBJECTS[number - 3]
-    body = spec.worldbody.add_body(name=f"object_{number}", mocap=True)
-    unseen = {"contype": 0, "conaffinity": 0, "group": 1}
-    body.add_geom(type=shape, size=size, pos=(0, 0, height), rgba=rgba, **unseen)
+    body = ElementTree.Element("body", name=f"object_{number}", mocap="true")
+    numbers = {"size": size, "pos": (0, 0, height), "rgba": rgba}
+    ElementTree.SubElement(body, "geom", type=shape, **{k: " ".join(map(str, v)) for k, v in numbers.items()})
+    return body
 
 
 def object_bodies(model: mujoco.MjModel) -> list[int]:
