@@ -5,7 +5,7 @@ The `GroundTruth` is for evaluators. Nothing in a `DemonstrationSet` leads to it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -27,6 +27,7 @@ from signimit.strokes import Stroke, StrokeLibrary
 HALF_SIZE = (0.09, 0.12)  # m, half the larger side of a drawn movement
 LOOPS = 2  # how often a demonstrator draws the movement
 Strokes = StrokeLibrary | StrokeDeck
+SceneSampler = Callable[[np.random.Generator, int], NDArray[np.float64]]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
 
@@ -66,7 +67,11 @@ class GroundTruth:
 
 
 def compose_demonstrations(
-    language: Language, signs: Strokes, movements: Strokes, rng: np.random.Generator
+    language: Language,
+    signs: Strokes,
+    movements: Strokes,
+    rng: np.random.Generator,
+    scenes: SceneSampler = sample_scene,
 ) -> tuple[DemonstrationSet, GroundTruth]:
     """Make the demonstrations of a session, in random order.
 
@@ -78,6 +83,7 @@ def compose_demonstrations(
         signs: Strokes of the interactant; a `StrokeDeck` remembers which were used before.
         movements: Strokes of the demonstrator.
         rng: Decides everything.
+        scenes: Draws where the objects are, shape (O, 2), m, table frame, from a generator and their number.
 
     Returns:
         What the imitator may see, and the truth.
@@ -93,7 +99,7 @@ def compose_demonstrations(
     demonstrations = []
     for movement, focus in requests:
         utterance = compose_utterance(language, signs, movement, focus, rng)
-        objects = sample_scene(rng, language.objects)
+        objects = scenes(rng, language.objects)
         loops = compose_loops(language, movements, movement, rng)
         templates[movement] += loops
         hand = compose_path(sample_hand(rng), [loop + objects[focus] for loop in loops])

@@ -7,7 +7,7 @@ import math
 _Z = 1.959963984540054  # standard normal quantile of 0.975
 
 
-def wilson_interval(count: int, total: int) -> tuple[float, float]:
+def wilson_interval(count: float, total: float) -> tuple[float, float]:
     """Compute Wilson's 95 % interval of a share (doi:10.1080/01621459.1927.10502953); (0, 1) of none."""
     if not total:
         return 0.0, 1.0

@@ -8,4 +8,5 @@ from signimit.people.glyphs import MOVEMENT_LABELS as MOVEMENT_LABELS
 from signimit.people.glyphs import SIGN_LABELS as SIGN_LABELS
 from signimit.people.person import Person as Person
 from signimit.people.person import Style as Style
+from signimit.people.person import drawings as drawings
 from signimit.people.person import synthetic_library as synthetic_library

@@ -177,11 +177,25 @@ def synthetic_library(
     for name, count in (("writers", writers), ("samples", samples)):
         if count < 1:
             raise InvalidInputError(f"synthetic library: {name}", "at least 1", f"{count}")
-    strokes, names, people = [], [], []
-    for number in range(1, writers + 1):
-        person = Person.sample(rng)
-        for label in labels:
-            strokes += [person.draw(label, rng) for _ in range(samples)]
-            names += [label] * samples
-            people += [f"synthetic {number}"] * samples
-    return StrokeLibrary(tuple(strokes), tuple(names), tuple(people), "synthetic")
+    libraries = [drawings(Person.sample(rng), f"synthetic {n}", labels, samples, rng) for n in range(1, writers + 1)]
+    return sum(libraries[1:], libraries[0])
+
+
+def drawings(
+    person: Person, writer: str, labels: Iterable[str], samples: int, rng: np.random.Generator
+) -> StrokeLibrary:
+    """Let one synthetic person draw.
+
+    Args:
+        person: Who draws.
+        writer: What this person is called.
+        labels: What to draw.
+        samples: How often each.
+        rng: Where the deviations come from.
+
+    Raises:
+        UnknownNameError: If a label is not known.
+    """
+    names = tuple(label for label in labels for _ in range(samples))
+    strokes = tuple(person.draw(label, rng) for label in names)
+    return StrokeLibrary(strokes, names, (writer,) * len(names), "synthetic")
