@@ -1,0 +1,18 @@
+"""Entries of the benchmark by name, in the order of the leaderboard."""
+
+from __future__ import annotations
+
+from signimit.benchmark.entries.chance import Chance
+from signimit.benchmark.entries.imitator import learner_entrant
+from signimit.benchmark.protocol import Entrant, Oracle
+
+_ALL: tuple[Entrant | Oracle, ...] = (
+    learner_entrant("joint", "our default: everything inferred together, path-following", "joint"),
+    learner_entrant("paper", "the paper: Algorithm 1 as it works, its k-NN policy", "paper", "knn"),
+    learner_entrant("paper-path", "the paper's inference, path-following", "paper"),
+    learner_entrant("paper-literal", "the paper with Algorithm 1 as printed", "paper-literal", "knn"),
+    Entrant(name="chance", title="guesses: something that was shown, about something that lies there", make=Chance),
+)
+
+ENTRANTS: dict[str, Entrant | Oracle] = {entrant.name: entrant for entrant in _ALL}
+"""Everybody who enters, by name."""

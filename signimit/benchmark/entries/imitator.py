@@ -1,0 +1,60 @@
+"""The learners of this project as entries: they infer what was meant, then follow the policy of what is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.benchmark.entries.following import Follower
+from signimit.benchmark.protocol import Entrant, Kit, Observation
+from signimit.demonstrations import DemonstrationSet
+from signimit.learning import ImitationModel, learn
+from signimit.policies import DEFAULT_POLICY
+from signimit.understanding import Reading, Understanding
+
+
+class Imitator:
+    """Obeys as an `ImitationModel` says.
+
+    Attributes:
+        understanding: What was inferred.
+        reading: What the last utterance asked for, in the model's eyes: all weight on its choice.
+    """
+
+    understanding: Understanding
+    reading: Reading
+
+    def __init__(self, understand: Callable[[DemonstrationSet], ImitationModel]) -> None:
+        """Take the way of understanding demonstrations."""
+        self._understand = understand
+
+    def observe(self, demonstrations: DemonstrationSet) -> None:
+        """Understand the demonstrations."""
+        self._model = self._understand(demonstrations)
+        self.understanding = self._model.understanding
+
+    def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:
+        """Read the utterance."""
+        response = self._model.respond(signs, objects)
+        self.reading = certain_reading(response.movement, response.focus, len(self._model.movements), len(objects))
+        self._hand = Follower(response.policy)
+
+    def act(self, observation: Observation) -> ArrayLike:
+        """Follow the policy."""
+        return self._hand.act(observation)
+
+
+def certain_reading(movement: int, focus: int, movements: int, objects: int) -> Reading:
+    """Return a reading that leaves no doubt."""
+    return Reading(np.eye(movements)[movement], np.eye(objects)[focus])
+
+
+def learner_entrant(name: str, title: str, method: str, policy: str = DEFAULT_POLICY) -> Entrant:
+    """Enter `signimit.learn` with a method and a kind of policy."""
+
+    def make(kit: Kit) -> Imitator:
+        return Imitator(lambda demonstrations: learn(demonstrations, kit.prototypes, method, policy, kit.rng))
+
+    return Entrant(name=name, title=title, make=make)
