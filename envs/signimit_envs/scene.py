@@ -66,7 +66,8 @@ def _extra_object(number: int) -> ElementTree.Element:
     _, rgba, shape, size, height = _EXTRA_OBJECTS[number - 3]
     body = ElementTree.Element("body", name=f"object_{number}", mocap="true")
     numbers = {"size": size, "pos": (0, 0, height), "rgba": rgba}
-    ElementTree.SubElement(body, "geom", type=shape, **{k: " ".join(map(str, v)) for k, v in numbers.items()})
+    texts = {name: " ".join(map(str, values)) for name, values in numbers.items()}
+    body.append(ElementTree.Element("geom", {"type": shape, **texts}))
     return body
 
 

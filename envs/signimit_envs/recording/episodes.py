@@ -1,0 +1,174 @@
+"""Recorded episodes: what was observed, done and rewarded, and the full physics state at every control step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit.exceptions import InvalidInputError
+from signimit.validation import item_list
+from signimit_envs.recording.origin import RecordingOrigin
+
+BOX = "observation"
+"""Name under which an observation that is one array is kept; others have the names of their `Dict` space."""
+
+_STEP_FIELDS = {"actions": None, "rewards": np.float64, "terminations": np.bool_, "truncations": np.bool_}
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RecordedEpisode:
+    """An episode of T control steps; all arrays are read-only.
+
+    Attributes:
+        observations: By name, each of shape (T + 1, ...): at the start and after every step.
+        actions: As they were given to the environment, shape (T, ...).
+        rewards: Shape (T,).
+        terminations: Whether the episode was over, because the physics blew up, shape (T,).
+        truncations: Whether its time was, shape (T,).
+        infos: Those entries of `info` that are numbers at every step, each of shape (T + 1, ...).
+        states: The physics as `mujoco.mj_getState` gives it for `STATE_SPEC`, shape (T + 1, S).
+        controls: What the drives were told during each step, shape (T, nu), rad/s.
+        seed: What the environment was reset with, if anything.
+    """
+
+    observations: dict[str, NDArray[Any]]
+    actions: NDArray[Any]
+    rewards: NDArray[np.float64]
+    terminations: NDArray[np.bool_]
+    truncations: NDArray[np.bool_]
+    infos: dict[str, NDArray[Any]]
+    states: NDArray[np.float64]
+    controls: NDArray[np.float64]
+    seed: int | None = None
+
+    def __post_init__(self) -> None:
+        """Copy, check that all are of one length, and make read-only.
+
+        Raises:
+            InvalidInputError: Names the field, what was expected and what was found.
+        """
+        steps = len(np.atleast_1d(self.rewards))
+        if not steps:
+            raise InvalidInputError("episode", "at least one step", "none")
+        for name, dtype in _STEP_FIELDS.items():
+            object.__setattr__(self, name, _rows(getattr(self, name), name, steps, dtype))
+        for name, rows in (("states", steps + 1), ("controls", steps)):
+            numbers = _rows(getattr(self, name), name, rows, np.float64)
+            if numbers.ndim != 2:
+                raise InvalidInputError(name, f"shape ({rows}, n)", f"shape {numbers.shape}")
+            object.__setattr__(self, name, numbers)
+        for group in ("observations", "infos"):
+            arrays = getattr(self, group)
+            rows_of = {name: _rows(array, f"{group}: {name}", steps + 1) for name, array in arrays.items()}
+            object.__setattr__(self, group, rows_of)
+
+    def __len__(self) -> int:
+        """Return the number of control steps T."""
+        return len(self.rewards)
+
+    def __repr__(self) -> str:
+        """Say its size, e.g. ``RecordedEpisode(600 steps, reward 1)``."""
+        return f"RecordedEpisode({len(self)} steps, reward {self.rewards.sum():g})"
+
+
+@dataclass(frozen=True, eq=False)
+class Recording(Sequence[RecordedEpisode]):
+    """Episodes of one environment.
+
+    Attributes:
+        origin: The environment and its model.
+        episodes: The episodes, in order.
+    """
+
+    origin: RecordingOrigin
+    episodes: tuple[RecordedEpisode, ...]
+
+    def __init__(self, origin: RecordingOrigin, episodes: Iterable[RecordedEpisode]) -> None:
+        """Gather episodes.
+
+        Raises:
+            InvalidInputError: If there are none, or one has other fields or shapes than the first.
+        """
+        object.__setattr__(self, "origin", origin)
+        object.__setattr__(self, "episodes", tuple(item_list(episodes, "recording")))
+        first = row_shapes(self.episodes[0])
+        for number, episode in enumerate(self.episodes):
+            shapes = row_shapes(episode)
+            for name in sorted(first.keys() | shapes.keys()):
+                want, have = (str(fields.get(name, "none")) for fields in (first, shapes))
+                if want != have:
+                    raise InvalidInputError(f"episode {number}: {name}", f"{want} as in episode 0", have)
+
+    @overload
+    def __getitem__(self, index: int) -> RecordedEpisode: ...
+    @overload
+    def __getitem__(self, index: slice) -> Recording: ...
+    def __getitem__(self, index: int | slice) -> RecordedEpisode | Recording:
+        """Return one episode, or a shorter recording."""
+        if isinstance(index, slice):
+            return Recording(self.origin, self.episodes[index])
+        return self.episodes[index]
+
+    def __iter__(self) -> Iterator[RecordedEpisode]:
+        """Go through the episodes."""
+        return iter(self.episodes)
+
+    def __len__(self) -> int:
+        """Return the number of episodes."""
+        return len(self.episodes)
+
+    def __repr__(self) -> str:
+        """Say its sizes, e.g. ``Recording(9 episodes, 4500 steps)``."""
+        return f"Recording({len(self)} episode{'s' * (len(self) != 1)}, {sum(map(len, self))} steps)"
+
+
+def episode_arrays(episode: RecordedEpisode) -> dict[str, NDArray[Any]]:
+    """Return everything but the seed by flat names, ``observations.hand``, ``actions`` and so on."""
+    return {
+        **{f"observations.{name}": array for name, array in episode.observations.items()},
+        **{f"infos.{name}": array for name, array in episode.infos.items()},
+        **{name: getattr(episode, name) for name in (*_STEP_FIELDS, "states", "controls")},
+    }
+
+
+def episode_from_arrays(arrays: Mapping[str, NDArray[Any]], seed: int | None) -> RecordedEpisode:
+    """Undo `episode_arrays`.
+
+    Raises:
+        InvalidInputError: If something is missing, or not of the length of the rest.
+    """
+    groups: dict[str, dict[str, NDArray[Any]]] = {"observations": {}, "infos": {}}
+    single = {}
+    for name, array in arrays.items():
+        group, dot, rest = name.partition(".")
+        if dot and group in groups:
+            groups[group][rest] = array
+        elif name in (*_STEP_FIELDS, "states", "controls"):
+            single[name] = array
+        else:
+            raise InvalidInputError("episode", "the fields of an episode", f"{name!r}")
+    for name in (*_STEP_FIELDS, "states", "controls"):
+        if name not in single:
+            raise InvalidInputError("episode", f"an array {name!r}", "none")
+    return RecordedEpisode(observations=groups["observations"], infos=groups["infos"], seed=seed, **single)
+
+
+def row_shapes(episode: RecordedEpisode) -> dict[str, tuple[str, tuple[int, ...]]]:
+    """Return the type and the shape of a row of each of an episode's arrays, by `episode_arrays`' names."""
+    return {name: (array.dtype.str, array.shape[1:]) for name, array in episode_arrays(episode).items()}
+
+
+def _rows(value: ArrayLike, where: str, rows: int, dtype: type[np.generic] | None = None) -> NDArray[Any]:
+    """Copy numbers with one row a step into a read-only array."""
+    array = np.array(value, dtype=dtype, order="C")
+    if array.dtype.kind not in "biuf" or array.ndim < 1 or len(array) != rows:
+        raise InvalidInputError(where, f"numbers for {rows} steps", f"{array.dtype} of shape {array.shape}")
+    if not where.startswith("infos") and not np.isfinite(array).all():
+        step = int(np.argwhere(~np.isfinite(array))[0][0])
+        raise InvalidInputError(where, "finite numbers", f"others at step {step}")
+    array.setflags(write=False)
+    return array

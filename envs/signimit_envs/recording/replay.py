@@ -1,0 +1,130 @@
+"""Replaying recordings: simulate them again, step by step, or show their states with another observation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing
+from typing import Any, NamedTuple
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.exceptions import FileFormatError, UnknownNameError
+from signimit_envs.recording.episodes import RecordedEpisode
+from signimit_envs.recording.origin import STATE_SPEC, RecordingOrigin
+from signimit_envs.rendering import OffscreenView
+from signimit_envs.scene import object_bodies
+
+
+class Divergence(NamedTuple):
+    """Where a simulation leaves the recording.
+
+    Attributes:
+        step: The first control step, from 0, after which the states differ.
+        difference: Largest difference of an element of the state then.
+    """
+
+    step: int
+    difference: float
+
+
+def find_divergence(origin: RecordingOrigin, episode: RecordedEpisode) -> Divergence | None:
+    """Simulate an episode from its first state with the recorded controls, and compare every state bit for bit.
+
+    After a blow-up the environment put the arm back; from there the recorded state is taken, not simulated.
+
+    Returns:
+        None if all states are equal.
+
+    Raises:
+        FileFormatError: If the states or controls are not those of the model.
+    """
+    model, data = _prepared(origin, episode)
+    state = np.empty_like(episode.states[0])
+    mujoco.mj_setState(model, data, episode.states[0], STATE_SPEC)
+    for step, (controls, after) in enumerate(zip(episode.controls, episode.states[1:], strict=True)):
+        if episode.terminations[step]:
+            mujoco.mj_setState(model, data, after, STATE_SPEC)
+            continue
+        data.ctrl[:] = controls
+        mujoco.mj_step(model, data, origin.substeps)
+        mujoco.mj_getState(model, data, state, STATE_SPEC)
+        if state.tobytes() != after.tobytes():
+            return Divergence(step, float(np.abs(state - after).max()))
+    return None
+
+
+def observe_states(origin: RecordingOrigin, episode: RecordedEpisode) -> dict[str, NDArray[np.float64]]:
+    """Observe a recorded episode as the environment does, from its physics states alone.
+
+    Returns:
+        ``time`` (T + 1,), s; ``hand`` (T + 1, 2), m; ``hand_velocity`` (T + 1, 2), m/s; ``joints`` (T + 1, 3), rad;
+        ``joint_velocities`` (T + 1, 3), rad/s; ``objects`` (T + 1, O, 2), m.
+
+    Raises:
+        FileFormatError: If the states are not those of the model.
+    """
+    model, data = _prepared(origin, episode)
+    rows = [_observed(model, data) for _ in _play(model, data, episode)]
+    return {name: np.stack([row[name] for row in rows]) for name in rows[0]}
+
+
+def film_states(
+    origin: RecordingOrigin, episode: RecordedEpisode, camera: str = "perspective", size: tuple[int, int] = (480, 480)
+) -> Iterator[NDArray[np.uint8]]:
+    """Draw a recorded episode, T + 1 frames of shape (height, width, 3).
+
+    Args:
+        origin: The recording's origin.
+        episode: What to draw.
+        camera: A camera of the recorded model.
+        size: Width and height, pixels.
+
+    Raises:
+        FileFormatError: If the states are not those of the model.
+        UnknownNameError: If there is no such camera.
+        InvalidInputError: If the size cannot be.
+        RenderingError: If there is no OpenGL.
+    """
+    model, data = _prepared(origin, episode)
+    cameras = [model.camera(number).name for number in range(model.ncam)]
+    if camera not in cameras:
+        raise UnknownNameError("camera", camera, cameras)
+    with closing(OffscreenView(model, *size)) as view:
+        for _ in _play(model, data, episode):
+            yield view.frame(data, camera)
+
+
+def _prepared(origin: RecordingOrigin, episode: RecordedEpisode) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    model = origin.compile_model()
+    sizes = mujoco.mj_stateSize(model, STATE_SPEC), model.nu
+    found = episode.states.shape[1], episode.controls.shape[1]
+    if sizes != found:
+        expected = f"states of {sizes[0]} and controls of {sizes[1]} numbers, as the model has"
+        raise FileFormatError("recorded episode", expected, f"{found[0]} and {found[1]}")
+    return model, mujoco.MjData(model)
+
+
+def _play(model: mujoco.MjModel, data: mujoco.MjData, episode: RecordedEpisode) -> Iterator[None]:
+    """Bring the data to one recorded state after the other, with all positions that follow from it computed."""
+    for state in episode.states:
+        mujoco.mj_setState(model, data, state, STATE_SPEC)
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_camlight(model, data)
+        yield
+
+
+def _observed(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, Any]:
+    site = model.site("hand").id
+    jacobian = np.zeros((3, model.nv))
+    mujoco.mj_jacSite(model, data, jacobian, None, site)
+    return {
+        "time": np.array(data.time),
+        "hand": data.site_xpos[site, :2].copy(),
+        "hand_velocity": jacobian[:2].dot(data.qvel),
+        "joints": data.qpos.copy(),
+        "joint_velocities": data.qvel.copy(),
+        "objects": data.mocap_pos[object_bodies(model), :2].copy(),
+    }

@@ -1,0 +1,60 @@
+"""Recordings of a model that obeys: what it was asked, where, and everything that the arm then did."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from contextlib import closing
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+
+from signimit.exceptions import InvalidInputError
+from signimit.learning import ImitationModel
+from signimit_envs.people import MOVEMENTS
+from signimit_envs.recording.episodes import Recording
+from signimit_envs.recording.recorder import EpisodeRecorder
+from signimit_envs.reproduction import hand_velocities
+from signimit_envs.scene import CONTROL_RATE
+from signimit_envs.session import Command
+
+ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
+
+
+def record_reproductions(
+    model: ImitationModel, commands: Iterable[Command], seconds: float = 10.0, movements: Sequence[str] = MOVEMENTS
+) -> Recording:
+    """Let a model obey commands with the simulated arm, one episode each.
+
+    Args:
+        model: Who obeys. It is given the signs and where the objects are.
+        commands: What it is asked; each request is in ``infos``, judged by the environment's own drawings.
+        seconds: How long each episode takes.
+        movements: Labels of the movements that requests count.
+
+    Raises:
+        InvalidInputError: If there are no commands, or one cannot be made.
+    """
+    if not 0 < seconds <= 600.0:  # a comparison with NaN is false
+        raise InvalidInputError("seconds", "above 0, at most 600", f"{seconds}")
+    steps = max(1, round(seconds * CONTROL_RATE))
+    count = model.demonstrations.objects.shape[1]
+    env = gym.make(ENV_ID, max_episode_steps=steps, objects=count, movements=list(movements))
+    with closing(EpisodeRecorder(env)) as recorder:
+        for command in commands:
+            _obey(model, command, recorder)
+        return recorder.recording
+
+
+def _obey(model: ImitationModel, command: Command, env: EpisodeRecorder) -> None:
+    arm: Any = env.unwrapped
+    options = {**command.request._asdict(), **command.scene._asdict(), "signs": command.signs}
+    observation, _ = env.reset(options=options)
+    move = hand_velocities(model.respond(command.signs, command.scene.objects).policy)
+    over = False
+    while not over:
+        velocity = move(observation["hand"])
+        # A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
+        action = velocity / max(arm.max_hand_speed, float(np.abs(velocity).max()))
+        observation, _, terminated, truncated, _ = env.step(action.astype(np.float32))
+        over = terminated or truncated

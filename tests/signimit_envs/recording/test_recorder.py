@@ -1,0 +1,139 @@
+"""What is recorded is what happened."""
+
+from __future__ import annotations
+
+from contextlib import closing
+from typing import Any
+
+import gymnasium as gym
+import mujoco
+import numpy as np
+import pytest
+
+import signimit as si
+from signimit_envs import ENV_IDS, TabletopHandEnv, reproduce
+from signimit_envs.recording import STATE_SPEC, EpisodeRecorder, Recording, record_reproductions
+from signimit_envs.recording.episodes import episode_arrays, episode_from_arrays
+from signimit_envs.session import Command, Scene
+
+
+@pytest.mark.parametrize("env_id", ENV_IDS)
+def test_a_recorded_episode_is_what_the_agent_saw_did_and_got(env_id: str) -> None:
+    with closing(EpisodeRecorder(gym.make(env_id))) as env:
+        arm: Any = env.unwrapped
+        seen = [env.reset(seed=3)]
+        done = []
+        for k in range(12):
+            action = np.full(env.action_space.shape or (), 0.1 * np.sin(k), np.float32)
+            *outcome, info = env.step(action)
+            seen.append((outcome[0], info))
+            done.append((action, *outcome[1:], arm.data.ctrl.copy(), arm.data.time))
+        (episode,) = env.recording
+    assert len(episode) == 12
+    assert episode.seed == 3
+    for name in ("hand", "joints", "objects", "signs"):
+        np.testing.assert_array_equal(episode.observations[name], [o[name] for o, _ in seen])
+    np.testing.assert_array_equal(episode.infos["request"], [tuple(i["request"]) for _, i in seen])
+    np.testing.assert_array_equal(episode.infos["is_success"], [i["is_success"] for _, i in seen])
+    actions, rewards, terminated, truncated, controls, times = zip(*done, strict=True)
+    np.testing.assert_array_equal(episode.actions, actions)
+    np.testing.assert_array_equal(episode.rewards, rewards)
+    np.testing.assert_array_equal(episode.terminations, terminated)
+    np.testing.assert_array_equal(episode.truncations, truncated)
+    np.testing.assert_array_equal(episode.controls, controls)
+    assert np.ptp(episode.controls, axis=0).min() > 0
+    np.testing.assert_array_equal(episode.states[1:, 0], times)  # a state begins with its time
+
+
+def test_the_state_holds_where_the_objects_are(recording: Recording) -> None:
+    model = recording.origin.compile_model()
+    data = mujoco.MjData(model)
+    mujoco.mj_setState(model, data, recording[0].states[7], STATE_SPEC)
+    np.testing.assert_array_equal(data.mocap_pos[:, :2], recording[0].observations["objects"][7])
+
+
+def test_each_reset_begins_an_episode_and_one_without_steps_is_none(recording: Recording) -> None:
+    assert [len(episode) for episode in recording] == [40, 25]
+    assert [episode.seed for episode in recording] == [5, None]
+    with closing(EpisodeRecorder(gym.make(ENV_IDS[0]))) as env:
+        env.reset()
+        env.reset()
+        with pytest.raises(si.InvalidInputError, match="recording: expected at least one, found none"):
+            _ = env.recording
+
+
+def test_an_observation_that_is_one_array_is_recorded_too() -> None:
+    env = gym.wrappers.FlattenObservation(gym.make(ENV_IDS[1]))
+    with closing(EpisodeRecorder(env)) as recorder:
+        first, _ = recorder.reset(seed=0)
+        recorder.step(np.zeros(2, np.float32))
+        (episode,) = recorder.recording
+    np.testing.assert_array_equal(episode.observations["observation"][0], first)
+
+
+def test_a_recording_knows_the_environment_with_its_arguments_and_wrappers(recording: Recording) -> None:
+    spec = recording.origin.make_spec()
+    assert spec.id == "signimit/TabletopHand-v0"
+    assert spec.kwargs == {"objects": 4, "camera": "top"}
+    with closing(gym.make(spec)) as env:
+        assert env.unwrapped.model.nmocap == 4  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("entry", ["os:system", "subprocess:run"])
+def test_a_specification_that_names_foreign_code_is_refused(recording: Recording, entry: str) -> None:
+    hostile = recording.origin.env_spec.replace("signimit_envs.tabletop_hand:TabletopHandEnv", entry)
+    origin = type(recording.origin)(env_spec=hostile, model_xml="<mujoco/>", assets={})
+    with pytest.raises(si.SignimitError, match="expected code of signimit_envs or gymnasium, found"):
+        origin.make_spec()
+
+
+def test_what_cannot_be_recorded_is_refused_in_one_sentence() -> None:
+    with pytest.raises(si.InvalidInputError, match="expected one of signimit's, found CartPoleEnv"):
+        EpisodeRecorder(gym.make("CartPole-v1"))
+    with pytest.raises(si.InvalidInputError, match=r"gymnasium\.make made, found one without"):
+        EpisodeRecorder(TabletopHandEnv())
+    env = gym.make(ENV_IDS[1])
+    env.unwrapped.model.body_mass[3] *= 2  # type: ignore[attr-defined]
+    with pytest.raises(si.InvalidInputError, match="the model as it was compiled, found one that was changed"):
+        EpisodeRecorder(env)
+
+
+def test_recorded_arrays_cannot_be_written_to_and_must_fit(recording: Recording) -> None:
+    arrays = episode_arrays(recording[0])
+    assert not any(array.flags.writeable for array in arrays.values())
+    with pytest.raises(si.InvalidInputError, match="actions: expected numbers for 40 steps"):
+        episode_from_arrays({**arrays, "actions": arrays["actions"][1:]}, None)
+    broken = arrays["states"].copy()
+    broken[3, 1] = np.nan
+    with pytest.raises(si.InvalidInputError, match="states: expected finite numbers, found others at step 3"):
+        episode_from_arrays({**arrays, "states": broken}, None)
+    wider = {**arrays, "controls": np.zeros((40, 5))}
+    with pytest.raises(si.InvalidInputError, match="episode 1: controls"):
+        Recording(recording.origin, [recording[0], episode_from_arrays(wider, None)])
+
+
+def test_a_reproduction_is_recorded_as_it_happens_without_a_recorder() -> None:
+    rng = np.random.default_rng(1)
+    times = np.arange(0.0, 3.0, 0.02)
+    objects = np.array([[-0.2, 0.05], [0.2, 0.0]])
+    strokes = [np.cumsum(rng.normal(size=(30, 2)), axis=0) for _ in range(4)]
+    demonstrations = [
+        si.Demonstration(
+            (strokes[focus], strokes[2 + movement]),
+            objects,
+            objects[focus] + 0.08 * np.column_stack([np.cos(4 * times), (1 - 2 * movement) * np.sin(4 * times)]),
+            times,
+        )
+        for focus, movement in [(0, 0), (0, 1), (1, 0), (1, 1)] * 2
+    ]
+    model = si.learn(si.DemonstrationSet(demonstrations), rng=0)
+    command = Command(si.languages.Request(0, 1), (strokes[1], strokes[2]), Scene(objects, np.array([0.1, -0.1])), True)
+    recording = record_reproductions(model, [command], seconds=2.0)
+    (episode,) = recording
+    assert len(episode) == 100
+    assert episode.truncations[-1]
+    assert tuple(episode.infos["request"][0]) == (0, 1)
+    policy = model.respond(command.signs, objects).policy
+    with closing(TabletopHandEnv(objects=2)) as env:
+        track = reproduce(env, policy, objects, [0.1, -0.1], 2.0)
+    np.testing.assert_allclose(episode.observations["hand"], track.path, atol=1e-6)  # actions are rounded to float32
