@@ -1,0 +1,102 @@
+"""What the imitator believes after each demonstration, as the page is told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.explanation import Reasons
+from signimit.learning import ImitationModel, Response
+from signimit.signs import normalised_sign, resampled_path
+from signimit.summary import object_name, ordinal
+
+_SIGN_POINTS, _DRAWING_POINTS = 2, 64  # every second of a sign's 64 points; points of a drawing
+_MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen
+
+
+def belief_json(model: ImitationModel, seconds: float) -> dict[str, Any]:
+    """Say what a model has understood; numbers are rounded for the screen.
+
+    Args:
+        model: The model, of a method that has probabilities.
+        seconds: How long it took to understand.
+    """
+    reasons, order = model.explain(), model.word_order
+    return {
+        "movements": [{"number": m, "members": list(found.members)} for m, found in enumerate(model.movements)],
+        "labels": model.labels.tolist(),
+        "focus": model.focus.tolist(),
+        "focus_probability": _rounded(reasons.focus_probability),
+        "movement_probability": _rounded(reasons.movement_probability),
+        "word_order": {"focus": order.focus, "movement": order.movement, "text": _order_text(model)},
+        "word_orders": [
+            {"focus": other.focus, "movement": other.movement, "loss": round(loss, 2)}
+            for other, loss in reasons.word_orders
+        ],
+        "lexicon": {"objects": _object_words(model), "movements": _movement_words(model)},
+        "doubtful": doubts(reasons),
+        "text": model.summary(),
+        "seconds": round(seconds, 3),
+    }
+
+
+def doubts(reasons: Reasons) -> list[dict[str, Any]]:
+    """Return the demonstrations that the imitator is unsure about, each with a sentence."""
+    found: dict[int, list[str]] = {}
+    for doubt in reasons.ambiguous:
+        likely = [f"{object_name(i)} {p:.0%}" for i, p in zip(doubt.objects, doubt.probabilities, strict=True)]
+        found.setdefault(doubt.demonstration, []).append(f"about {' or '.join(likely)}")
+    for number in reasons.unsure_movements:
+        found.setdefault(number, []).append("its movement is in doubt")
+    return [
+        {"number": number, "text": f"Demonstration {number}: {', '.join(found[number])}."} for number in sorted(found)
+    ]
+
+
+def answer_text(response: Response) -> str:
+    """Say what an answer is, e.g. "movement 2 about the green object, 94 %"."""
+    return understood_text(response.movement, response.focus, response.confidence)
+
+
+def understood_text(movement: int, focus: int, confidence: float) -> str:
+    """Say what was understood, e.g. "movement 2 about the green object, 94 %"."""
+    return f"movement {movement} about the {object_name(focus)} object, {100 * confidence:.0f} %"
+
+
+def _order_text(model: ImitationModel) -> str:
+    order = model.word_order
+    return f"The {ordinal(order.focus)} sign names the object, the {ordinal(order.movement)} the movement."
+
+
+def _object_words(model: ImitationModel) -> list[dict[str, Any]]:
+    objects = model.demonstrations.objects.shape[1]
+    return [{"object": i, "strokes": _signs(model, model.word_order.focus, model.focus == i)} for i in range(objects)]
+
+
+def _movement_words(model: ImitationModel) -> list[dict[str, Any]]:
+    word = model.word_order.movement
+    return [
+        {
+            "movement": m,
+            "strokes": _signs(model, word, model.labels == m),
+            "drawings": [_rounded(resampled_path(path, _DRAWING_POINTS)) for path in found.paths[-_MOST_EXAMPLES:]],
+        }
+        for m, found in enumerate(model.movements)
+    ]
+
+
+def _signs(model: ImitationModel, word: int, which: NDArray[np.bool_]) -> list[Any]:
+    """Return how the latest of some demonstrations made their sign at a place of the utterance."""
+    numbers = np.flatnonzero(which)[-_MOST_EXAMPLES:]
+    return [sign_json(model.demonstrations[int(t)].signs[word]) for t in numbers]
+
+
+def sign_json(sign: NDArray[np.float64]) -> Any:
+    """Return a sign as it is shown, within [-1, 1]."""
+    return _rounded(normalised_sign(sign)[::_SIGN_POINTS])
+
+
+def _rounded(array: NDArray[np.float64]) -> Any:
+    return np.round(array, 3).tolist()

@@ -1,0 +1,180 @@
+"""The door: who may come in, how often, and with how much."""
+
+from __future__ import annotations
+
+import ipaddress
+import json
+import logging
+import secrets
+import time
+from collections.abc import Awaitable, Callable, MutableMapping
+from typing import Any
+
+from signimit_envs.studio.limits import LIMITS
+
+Scope = MutableMapping[str, Any]
+Message = MutableMapping[str, Any]
+Receive = Callable[[], Awaitable[Message]]
+Send = Callable[[Message], Awaitable[None]]
+App = Callable[[Scope, Receive, Send], Awaitable[None]]
+
+HEADERS = (
+    (
+        b"content-security-policy",
+        b"default-src 'self'; img-src 'self' blob: data:; media-src 'self' blob:; object-src 'none'; base-uri 'none'; "
+        b"form-action 'none'; frame-ancestors 'none'",
+    ),
+    (b"referrer-policy", b"no-referrer"),
+    (b"x-content-type-options", b"nosniff"),
+    (b"x-frame-options", b"DENY"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cache-control", b"no-store"),
+)
+_log = logging.getLogger(__name__)
+
+
+class Bucket:
+    """Lets so many things a second pass, and so many at once."""
+
+    def __init__(self, rate: float, burst: float) -> None:
+        """Start full."""
+        self._rate, self._burst = rate, burst
+        self._left, self._at = burst, time.monotonic()
+
+    def take(self) -> bool:
+        """Tell whether one more may pass."""
+        now = time.monotonic()
+        self._left = min(self._burst, self._left + self._rate * (now - self._at))
+        self._at = now
+        if self._left < 1.0:
+            return False
+        self._left -= 1.0
+        return True
+
+
+class Guard:
+    """Wraps an ASGI application; what it lets in lies under ``/TOKEN/``.
+
+    A page elsewhere can make a browser send requests here, and by DNS rebinding even read the answers. So the Host
+    must be one of ours, the Origin, where there is one, must be that Host, and the token must be in the path.
+    """
+
+    def __init__(self, app: App, token: str, hosts: frozenset[str], any_address: bool = False) -> None:
+        """Remember who may come in.
+
+        Args:
+            app: What is guarded.
+            token: First part of every path.
+            hosts: Values of the Host header that are ours, with the port.
+            any_address: Let in any Host that is an IP address rather than a name; addresses cannot be rebound.
+        """
+        self._app, self._token, self._hosts, self._any_address = app, token.encode(), hosts, any_address
+        self._bucket = Bucket(LIMITS.requests, LIMITS.burst)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Let a request in, or answer it at the door."""
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        refusal = self._refusal(scope)
+        if refusal is not None:
+            status, sentence = refusal
+            _log.warning("refused %s with %d: %s", scope["type"], status, sentence)
+            await _refuse(scope, send, status, sentence)
+            return
+        inner = dict(scope)
+        prefix = "/" + self._token.decode()
+        inner["path"] = scope["path"][len(prefix) :]
+        inner["raw_path"] = inner["path"].encode()
+        if scope["type"] == "http":
+            await _Bounded(self._app, _most_bytes(inner["path"])).serve(inner, receive, send)
+        else:
+            await self._app(inner, receive, send)
+
+    def _refusal(self, scope: Scope) -> tuple[int, str] | None:
+        headers = [(name.lower(), value) for name, value in scope["headers"]]
+        hosts = [value.decode("latin-1") for name, value in headers if name == b"host"]
+        if len(hosts) != 1 or not self._is_ours(hosts[0]):
+            return 403, "This studio is not at that address."
+        origins = [value.decode("latin-1") for name, value in headers if name == b"origin"]
+        if origins not in ([], [f"http://{hosts[0]}"]):
+            return 403, "Other pages may not use this studio."
+        sites = [value for name, value in headers if name == b"sec-fetch-site"]
+        if any(site not in (b"same-origin", b"none") for site in sites):
+            return 403, "Other pages may not use this studio."
+        first, slash, _ = scope["path"].removeprefix("/").partition("/")
+        if not slash or not secrets.compare_digest(first.encode("utf-8", "replace"), self._token):
+            return 404, "There is nothing here. The studio printed its whole address when it started."
+        if not self._bucket.take():
+            return 429, f"Too many requests: at most {LIMITS.requests} a second."
+        return None
+
+    def _is_ours(self, host: str) -> bool:
+        if host in self._hosts:
+            return True
+        name, _, port = host.rpartition(":")
+        same_port = any(ours.rpartition(":")[2] == port for ours in self._hosts)
+        return self._any_address and same_port and _is_address(name)
+
+
+class _Bounded:
+    """Serves one request whose body must not be too large, and adds our headers to the answer."""
+
+    def __init__(self, app: App, most: int) -> None:
+        self._app, self._most = app, most
+        self._count, self._started, self._too_large = 0, False, False
+
+    async def serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        lengths = [value for name, value in scope["headers"] if name.lower() == b"content-length"]
+        if any(not value.isdigit() or int(value[:20]) > self._most for value in lengths):
+            await _refuse(scope, send, 413, f"Too large: at most {self._most} bytes.")
+            return
+
+        async def counted() -> Message:
+            message = await receive()
+            self._count += len(message.get("body", b""))
+            if self._count > self._most:
+                self._too_large = True
+                return {"type": "http.disconnect"}
+            return message
+
+        async def marked(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message = {**message, "headers": [*message.get("headers", ()), *HEADERS]}
+                self._started = True
+            await send(message)
+
+        try:
+            await self._app(scope, counted, marked)
+        except Exception:
+            if not self._too_large:
+                _log.exception("a request failed")
+            if not self._started:
+                status = 413 if self._too_large else 500
+                sentence = (
+                    f"Too large: at most {self._most} bytes." if self._too_large else "The studio failed; see its log."
+                )
+                await _refuse(scope, send, status, sentence)
+
+
+def _most_bytes(path: str) -> int:
+    return LIMITS.upload if path == "/api/import" else LIMITS.body
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name.strip("[]"))
+    except ValueError:
+        return False
+    return True
+
+
+async def _refuse(scope: Scope, send: Send, status: int, sentence: str) -> None:
+    if scope["type"] == "websocket":
+        await send({"type": "websocket.close", "code": 1008, "reason": sentence})
+        return
+    body = json.dumps({"error": sentence}).encode()
+    headers = [(b"content-type", b"application/json"), (b"content-length", str(len(body)).encode()), *HEADERS]
+    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await send({"type": "http.response.body", "body": body})

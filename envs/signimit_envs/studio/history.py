@@ -1,0 +1,144 @@
+"""What a session is after its events: a pure fold, with undo and redo."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from signimit.exceptions import InvalidInputError
+from signimit_envs.studio.events import (
+    Asked,
+    Created,
+    Deleted,
+    Demonstrated,
+    Event,
+    Judged,
+    Redone,
+    Redrawn,
+    Shown,
+    Titled,
+    Undone,
+)
+
+Demonstrations = tuple[Shown, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """An answer, and what people thought of it."""
+
+    asked: Asked
+    good: bool | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class History:
+    """A session at one moment.
+
+    Attributes:
+        created: How it began.
+        title: What it is called now.
+        shown: The demonstrations that count now.
+        answers: What the arm was asked.
+        revision: How many edits there were; asking and judging are none.
+        past: What undo brings back, the latest last.
+        future: What redo brings back, the next last.
+    """
+
+    created: Created
+    title: str
+    shown: Demonstrations = ()
+    answers: tuple[Given, ...] = ()
+    revision: int = 0
+    past: tuple[Demonstrations, ...] = ()
+    future: tuple[Demonstrations, ...] = ()
+
+
+def retell(events: Iterable[Event]) -> History:
+    """Return the session that a list of events makes.
+
+    Raises:
+        InvalidInputError: If the first does not create it, or one of them cannot have happened.
+    """
+    remaining = iter(events)
+    first = next(remaining, None)
+    if not isinstance(first, Created):
+        raise InvalidInputError("session", "a beginning", type(first).__name__)
+    return functools.reduce(after, remaining, History(first, first.title))
+
+
+def after(history: History, event: Event) -> History:
+    """Return the session after one more event.
+
+    Raises:
+        InvalidInputError: If that cannot happen now.
+    """
+    match event:
+        case Asked():
+            return replace(history, answers=(*history.answers, Given(event)))
+        case Judged(number, good):
+            _check_number(number, len(history.answers), "answer")
+            answers = list(history.answers)
+            answers[number] = replace(answers[number], good=good)
+            return replace(history, answers=tuple(answers))
+        case Titled(title):
+            return replace(history, title=title, revision=history.revision + 1)
+        case Undone():
+            return _undone(history)
+        case Redone():
+            return _redone(history)
+        case Created():
+            raise InvalidInputError("session", "one beginning", "another")
+        case _:
+            return _edited(history, event)
+
+
+def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> History:
+    shown = history.shown
+    if isinstance(event, Demonstrated):
+        edited = (*shown, *event.shown)
+    else:
+        _check_number(event.number, len(shown), "demonstration")
+        instead = (event.shown,) if isinstance(event, Redrawn) else ()
+        edited = (*shown[: event.number], *instead, *shown[event.number + 1 :])
+    _check_alike(edited, history.created.objects)
+    past = (*history.past, shown)
+    return replace(history, shown=edited, past=past, future=(), revision=history.revision + 1)
+
+
+def _undone(history: History) -> History:
+    if not history.past:
+        raise InvalidInputError("undo", "something to take back", "nothing")
+    return replace(
+        history,
+        shown=history.past[-1],
+        past=history.past[:-1],
+        future=(*history.future, history.shown),
+        revision=history.revision + 1,
+    )
+
+
+def _redone(history: History) -> History:
+    if not history.future:
+        raise InvalidInputError("redo", "something that was undone", "nothing")
+    return replace(
+        history,
+        shown=history.future[-1],
+        past=(*history.past, history.shown),
+        future=history.future[:-1],
+        revision=history.revision + 1,
+    )
+
+
+def _check_number(number: int, count: int, what: str) -> None:
+    if number not in range(count):
+        raise InvalidInputError(what, f"a number below {count}", f"{number!r:.40}")
+
+
+def _check_alike(shown: Demonstrations, objects: int) -> None:
+    for number, one in enumerate(shown):
+        if len(one.signs) != len(shown[0].signs):
+            raise InvalidInputError(f"demonstration {number}: signs", f"{len(shown[0].signs)}", f"{len(one.signs)}")
+        if len(one.objects) != objects:
+            raise InvalidInputError(f"demonstration {number}: objects", f"{objects}", f"{len(one.objects)}")

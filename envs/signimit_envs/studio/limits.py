@@ -1,0 +1,53 @@
+"""How much of everything the studio takes from a browser."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from signimit_envs.scene import OBJECT_COUNTS
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """Most of each.
+
+    Attributes:
+        body: Bytes of a request.
+        upload: Bytes of an imported file.
+        message: Bytes of a message on the socket.
+        points: Points of a stroke.
+        seconds: Length of a stroke, s.
+        coordinate: Size of a coordinate of a sign, any unit.
+        demonstrations: Demonstrations in a session.
+        answers: Answers in a session.
+        events: Edits of a session, those that were undone counted too.
+        sessions: Sessions on the shelf.
+        viewers: Pages that watch the arm.
+        messages: Socket messages of a page, 1/s.
+        requests: Requests, 1/s.
+        burst: Requests at once.
+        title: Characters of a session's title.
+        objects: Objects in a scene.
+        drawn: Demonstrations in a figure.
+    """
+
+    body: int = 4 * 2**20
+    upload: int = 32 * 2**20
+    message: int = 1024
+    points: int = 5000
+    seconds: float = 600.0
+    coordinate: float = 1e6
+    demonstrations: int = 200
+    answers: int = 500
+    events: int = 5000
+    sessions: int = 500
+    viewers: int = 8
+    messages: int = 120
+    requests: int = 40
+    burst: int = 120
+    title: int = 80
+    objects: int = OBJECT_COUNTS[-1]
+    drawn: int = 60
+
+
+LIMITS = Limits()

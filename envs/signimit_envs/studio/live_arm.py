@@ -1,0 +1,263 @@
+"""The simulated arm, alive: physics in real time in a thread of its own, which obeys, is shoved and is dragged about."""
+
+from __future__ import annotations
+
+import logging
+import queue
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.policies import Policy
+from signimit_envs.reproduction import hand_velocities
+from signimit_envs.scene import CONTROL_RATE, WORKSPACE, object_bodies
+from signimit_envs.studio.push import Push
+from signimit_envs.tabletop_hand import TabletopHandEnv
+
+ANSWER_SECONDS = 60.0  # after which the arm rests
+TRAIL_SECONDS, TRAIL_STRIDE = 8.0, 2  # of the past; control steps between its points
+PART_STEPS = CONTROL_RATE  # of a track that are handed over at once
+_FARTHEST_BEHIND = 0.5  # s; a thread that is held up longer does not catch up
+_log = logging.getLogger(__name__)
+Array = NDArray[np.float64]
+
+
+class Errand(NamedTuple):
+    """What the arm is to do.
+
+    Attributes:
+        session: Name of the session that asks.
+        answer: Number of the answer in it.
+        policy: Policy of the movement, in the object's frame.
+        focus: Number of the object.
+        text: What was understood, in words.
+    """
+
+    session: str
+    answer: int
+    policy: Policy
+    focus: int
+    text: str
+
+
+class TrackPart(NamedTuple):
+    """A second of an answer, or the rest of it.
+
+    Attributes:
+        errand: What the arm was doing.
+        first: Number of the control step that the part begins with.
+        path: Where the hand was, shape (T, 2), m.
+        joints: The joint angles, shape (T, 3), rad.
+        objects: Where the objects were, shape (T, O, 2), m.
+    """
+
+    errand: Errand
+    first: int
+    path: Array
+    joints: Array
+    objects: Array
+
+
+@dataclass(frozen=True, eq=False)
+class LiveState:
+    """The arm and its table after a control step; nobody writes to the arrays.
+
+    Attributes:
+        session: Name of the session whose table it is.
+        errand: What the arm does; none while it rests.
+        time: Simulated time since the arm came alive, s.
+        joints: Joint angles, shape (3,), rad.
+        hand: Position of the hand, shape (2,), m.
+        objects: Object positions, shape (O, 2), m.
+        trail: Where the hand was, the latest last.
+        shoved: Whether somebody is pushing it.
+        lost: By how much simulated time is behind the clock since the arm came alive, s.
+    """
+
+    session: str | None
+    errand: Errand | None
+    time: float
+    joints: Array
+    hand: Array
+    objects: Array
+    trail: tuple[tuple[float, float], ...]
+    shoved: bool
+    lost: float
+
+
+class LiveArm:
+    """One table with one arm. Whoever commands it returns at once; its thread obeys at the next control step."""
+
+    def __init__(self, record: Callable[[TrackPart], object]) -> None:
+        """Set the table.
+
+        Args:
+            record: Called in the arm's thread, once a second and at the end of each answer.
+        """
+        self._record = record
+        self._inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._live, name="live arm", daemon=True)
+        self._steps, self._lost = 0, 0.0
+        self._session: str | None = None
+        self._push: Push | None = None
+        self._trail: deque[tuple[float, float]] = deque(maxlen=round(TRAIL_SECONDS * CONTROL_RATE / TRAIL_STRIDE))
+        self._set_table(3)
+        self._put(None, np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]]), np.zeros(2))
+
+    def start(self) -> None:
+        """Come alive."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """Stop; may be called again, and before `start`."""
+        self._stop.set()
+        if self._thread.is_alive():
+            self._thread.join()
+        self._env.close()
+
+    @property
+    def state(self) -> LiveState:
+        """The state after the latest control step."""
+        return self._state
+
+    def put(self, session: str, objects: Array, hand: Array) -> None:
+        """Give the table to a session: objects, shape (O, 2), m, and the resting hand, shape (2,), m, in place."""
+        self._inbox.put(lambda: self._put(session, objects, hand))
+
+    def obey(self, errand: Errand) -> None:
+        """Begin an errand; the one before ends."""
+        self._inbox.put(lambda: self._begin(errand))
+
+    def rest(self) -> None:
+        """End the errand and hold still."""
+        self._inbox.put(self._end)
+
+    def drag(self, number: int, place: Array) -> None:
+        """Move an object to a place, shape (2,), m; it stays in the workspace. An object that is not there is not moved."""
+        self._inbox.put(lambda: self._drag(number, place))
+
+    def shove(self, velocity: Array) -> None:
+        """Push the hand for a moment, so that it drifts with about a velocity, shape (2,), m/s."""
+        self._inbox.put(lambda: self._shove(velocity))
+
+    def _live(self) -> None:
+        due = time.perf_counter()
+        while not self._stop.is_set():
+            try:
+                self._step()
+            except Exception:  # whatever it is, an arm that rests is better than a thread that died
+                _log.exception("the arm failed and rests")
+                self._errand = None
+            due += 1.0 / CONTROL_RATE
+            early = due - time.perf_counter()
+            if early > 0:
+                self._stop.wait(early)
+            elif -early > _FARTHEST_BEHIND:
+                self._lost, due = self._lost - early, due - early
+
+    def _step(self) -> None:
+        """Do what was commanded, then one control step."""
+        while not self._inbox.empty():
+            self._inbox.get()()
+        env = self._env
+        if self._push is not None:
+            self._push = self._push.apply(env.model, env.data)
+        velocity = np.zeros(2)
+        if self._errand is not None:
+            velocity = self._move(self._state.hand - self._objects[self._errand.focus])
+        action = velocity / max(env.max_hand_speed, float(np.abs(velocity).max()))
+        observation, _, failed, _, _ = env.step(action)
+        if failed:
+            self._push = None
+        self._steps += 1
+        if self._steps % TRAIL_STRIDE == 0 and self._errand is not None:
+            self._trail.append((round(float(observation["hand"][0]), 4), round(float(observation["hand"][1]), 4)))
+        self._look(observation)
+        if self._errand is not None:
+            self._remember()
+
+    def _look(self, observation: dict[str, Any]) -> None:
+        self._state = LiveState(
+            session=self._session,
+            errand=self._errand,
+            time=self._steps / CONTROL_RATE,
+            joints=observation["joints"],
+            hand=observation["hand"],
+            objects=self._objects,
+            trail=tuple(self._trail),
+            shoved=self._push is not None,
+            lost=self._lost,
+        )
+
+    def _remember(self) -> None:
+        state = self._state
+        self._track.append((state.hand, state.joints, state.objects))
+        self._told += 1
+        if len(self._track) == PART_STEPS:
+            self._hand_over()
+        if self._told >= ANSWER_SECONDS * CONTROL_RATE:
+            self._end()
+
+    def _hand_over(self) -> None:
+        if self._errand is not None and self._track:
+            parts = (np.array(part) for part in zip(*self._track, strict=True))
+            self._record(TrackPart(self._errand, self._told - len(self._track), *parts))
+        self._track = []
+
+    def _set_table(self, objects: int) -> None:
+        self._env = TabletopHandEnv(objects=objects)
+        self._bodies = object_bodies(self._env.model)
+        self._errand: Errand | None = None
+        self._track: list[tuple[Array, Array, Array]] = []
+        self._told = 0
+
+    def _put(self, session: str | None, objects: Array, hand: Array) -> None:
+        self._end_if_begun()
+        if len(objects) != len(self._bodies):
+            self._env.close()
+            self._set_table(len(objects))
+        observation, _ = self._env.reset(seed=0, options={"objects": objects, "hand": hand})
+        self._session, self._objects, self._push = session, observation["objects"], None
+        self._trail.clear()
+        self._look(observation)
+
+    def _begin(self, errand: Errand) -> None:
+        self._end_if_begun()
+        self._trail.clear()
+        self._errand, self._told = errand, 0
+        self._move = hand_velocities(errand.policy)
+
+    def _end(self) -> None:
+        self._end_if_begun()
+
+    def _end_if_begun(self) -> None:
+        self._hand_over()
+        self._errand = None
+
+    def _drag(self, number: int, place: Array) -> None:
+        if number not in range(len(self._bodies)):
+            return
+        moved = self._objects.copy()
+        moved[number] = np.clip(place, -WORKSPACE, WORKSPACE)
+        self._objects = moved
+        self._env.data.mocap_pos[self._bodies, :2] = moved
+
+    def _shove(self, velocity: Array) -> None:
+        self._push = Push(velocity)
+
+
+def is_alike(one: LiveState, other: LiveState) -> bool:
+    """Tell whether two states look the same."""
+    return (
+        one.errand is other.errand
+        and one.session == other.session
+        and np.array_equal(one.objects, other.objects)
+        and float(np.abs(one.joints - other.joints).max()) < 1e-5
+    )

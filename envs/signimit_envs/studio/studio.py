@@ -1,0 +1,144 @@
+"""The studio: sessions on a shelf, an arm that is alive, a camera, and those who watch."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import time
+from collections import deque
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from weakref import WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.languages import Request
+from signimit.scenes import sample_hand, sample_scene
+from signimit_envs.scene import CONTROL_RATE
+from signimit_envs.studio.belief import answer_text
+from signimit_envs.studio.camera import Camera
+from signimit_envs.studio.events import Asked, Created, Signs
+from signimit_envs.studio.history import History
+from signimit_envs.studio.live_arm import Errand, LiveArm, TrackPart
+from signimit_envs.studio.open_session import OpenSession
+from signimit_envs.studio.shelf import Shelf
+from signimit_envs.studio.viewers import Viewers
+
+_KEPT_OPEN = 4  # sessions; an older one is read again when somebody comes back to it
+_log = logging.getLogger(__name__)
+
+
+class NotHereError(LookupError):
+    """There is no such session, demonstration or answer."""
+
+
+class Studio:
+    """Everything that lives as long as the server."""
+
+    def __init__(self, folder: Path, seed: int = 0) -> None:
+        """Take the folder of sessions and set the table.
+
+        Args:
+            folder: Where sessions are kept.
+            seed: Decides what happens in new sessions.
+
+        Raises:
+            InvalidInputError: If another studio uses the folder.
+        """
+        self.shelf = Shelf(folder)
+        self.viewers = Viewers()
+        self.arm = LiveArm(self._record)
+        self.camera = Camera(lambda: self.arm.state, lambda: self.viewers.watching, self.viewers.publish)
+        self.demo: str | None = None
+        self._rng = np.random.default_rng(seed)
+        self._learner = ThreadPoolExecutor(1, "learner")
+        self._recorder = ThreadPoolExecutor(1, "recorder")
+        self._open: WeakValueDictionary[str, OpenSession] = WeakValueDictionary()
+        self._recent: deque[OpenSession] = deque(maxlen=_KEPT_OPEN)
+        self._opening = asyncio.Lock()
+
+    def start(self) -> None:
+        """Let arm and camera work."""
+        self.arm.start()
+        self.camera.start()
+
+    def close(self) -> None:
+        """End everything; what the arm did last is written first."""
+        self.camera.close()
+        self.arm.close()
+        self._learner.shutdown(cancel_futures=True)
+        self._recorder.shutdown()
+        self.shelf.close()
+
+    async def create(self, title: str, language: str, objects: int, seed: int | None = None) -> OpenSession:
+        """Begin a session."""
+        if seed is None:
+            seed = int(self._rng.integers(2**32))
+        now = time.strftime("%Y-%m-%dT%H:%M:%S")
+        created = Created(title or f"Session of {now.replace('T', ' ')}", now, language, objects, seed)
+        return await self.open(await asyncio.to_thread(self.shelf.create, created))
+
+    async def open(self, name: str) -> OpenSession:
+        """Return a session; whoever asks for the same name at the same time gets the same object.
+
+        Raises:
+            NotHereError: If there is none.
+        """
+        async with self._opening:
+            session = self._open.get(name)
+            if session is None:
+                if name not in self.shelf:
+                    raise NotHereError("There is no such session.")
+                history: History = await asyncio.to_thread(self.shelf.read, name)
+                session = OpenSession(name, self.shelf, history, self._learner)
+                self._open[name] = session
+            if session not in self._recent:
+                self._recent.append(session)
+        await session.prepare()
+        return session
+
+    def set_table(self, session: OpenSession) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Put the arm and new objects on the live table; return where they are, m."""
+        scene = sample_scene(self._rng, session.created.objects), sample_hand(self._rng)
+        self.arm.put(session.name, *scene)
+        return scene
+
+    async def ask(self, session: OpenSession, signs: Signs, request: Request | None) -> int:
+        """Let the arm answer signs, on the table as it is; return the number of the answer.
+
+        Raises:
+            InvalidInputError: If nothing was learned yet, or the signs cannot be used.
+        """
+        model, state = session.model, self.arm.state
+        objects = state.objects if state.session == session.name else self.set_table(session)[0]
+        response = await asyncio.to_thread(model.respond, [sign.points for sign in signs], objects)
+        policy = await asyncio.to_thread(model.policy, response.movement)
+        numbers: list[int] = []
+
+        def asked(history: History) -> Asked:
+            numbers.append(len(history.answers))
+            return Asked(signs, response.movement, response.focus, response.confidence, request)
+
+        await session.note(asked)
+        self.arm.obey(Errand(session.name, numbers[0], policy, response.focus, answer_text(response)))
+        return numbers[0]
+
+    def changed(self, session: OpenSession) -> None:
+        """Tell all pages that a session is not what it was."""
+        self.viewers.tell({"type": "changed", "session": session.name, "revision": session.history.revision})
+
+    def _record(self, part: TrackPart) -> None:
+        """Write a second of an answer to the disk, in a thread that may wait for it."""
+        self._recorder.submit(self._write, part)
+
+    def _write(self, part: TrackPart) -> None:
+        line = {
+            "first": part.first,
+            "rate": CONTROL_RATE,
+            **{name: np.round(getattr(part, name), 5).tolist() for name in ("path", "joints", "objects")},
+        }
+        try:
+            self.shelf.append_track(part.errand.session, part.errand.answer, line)
+        except OSError:
+            _log.exception("what the arm did could not be written")

@@ -1,0 +1,169 @@
+"""Teaching: sessions, demonstrations, and the built-in people."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Response
+
+from signimit.exceptions import InvalidInputError
+from signimit.languages import Language, Request
+from signimit_envs.studio.events import (
+    Deleted,
+    Demonstrated,
+    Event,
+    Redone,
+    Redrawn,
+    Shown,
+    Titled,
+    Undone,
+    stroke_to_json,
+)
+from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.messages import (
+    Merge,
+    NewDemonstration,
+    NewSession,
+    NewTitle,
+    People,
+    Revised,
+    signs_of,
+)
+from signimit_envs.studio.open_session import OpenSession
+from signimit_envs.studio.prompts import get_language, next_request
+from signimit_envs.studio.stand_ins import draw_answer, draw_utterance
+from signimit_envs.studio.studio import NotHereError, Studio
+from signimit_envs.studio.the_studio import Json, Number, SessionId, TheStudio
+from signimit_envs.studio.views import demonstration_json, session_json
+
+RevisionQuery = Annotated[int, Query(ge=0, le=10 * LIMITS.events)]
+routes = APIRouter(prefix="/api/sessions", tags=["teach"])
+
+
+@routes.get("")
+async def listed(studio: TheStudio) -> Json:
+    found = await asyncio.to_thread(studio.shelf.listed)
+    return {"sessions": [one._asdict() for one in found]}
+
+
+@routes.post("", status_code=201)
+async def create(studio: TheStudio, body: NewSession) -> Json:
+    language = get_language(body.language)
+    objects = body.objects if language is None else language.objects
+    session = await studio.create(body.title.strip(), body.language, objects, body.seed)
+    studio.changed(session)
+    return session_json(session, studio.arm.state)
+
+
+@routes.get("/{session_id}")
+async def shown(studio: TheStudio, session_id: SessionId) -> Json:
+    return session_json(await studio.open(session_id), studio.arm.state)
+
+
+@routes.get("/{session_id}/scene.jpg")
+async def scene(studio: TheStudio, session_id: SessionId) -> Response:
+    session = await studio.open(session_id)
+    return await _still(studio, session.understood.objects)
+
+
+@routes.post("/{session_id}/demonstrations")
+async def demonstrate(studio: TheStudio, session_id: SessionId, body: NewDemonstration) -> Json:
+    session = await studio.open(session_id)
+    shown = Shown(signs_of(body.signs), session.understood.objects, body.hand_stroke(), _prompt(session))
+    return await _edited(studio, session, body.revision, Demonstrated((shown,)))
+
+
+@routes.put("/{session_id}/demonstrations/{number}")
+async def redraw(studio: TheStudio, session_id: SessionId, number: Number, body: NewDemonstration) -> Json:
+    session = await studio.open(session_id)
+    old = _existing(session, number)
+    again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), old.prompt)
+    return await _edited(studio, session, body.revision, Redrawn(number, again))
+
+
+@routes.delete("/{session_id}/demonstrations/{number}")
+async def delete(studio: TheStudio, session_id: SessionId, number: Number, revision: RevisionQuery) -> Json:
+    session = await studio.open(session_id)
+    _existing(session, number)
+    return await _edited(studio, session, revision, Deleted(number))
+
+
+@routes.get("/{session_id}/demonstrations/{number}")
+async def demonstration(studio: TheStudio, session_id: SessionId, number: Number) -> Json:
+    session = await studio.open(session_id)
+    _existing(session, number)
+    return demonstration_json(session, number)
+
+
+@routes.get("/{session_id}/demonstrations/{number}/scene.jpg")
+async def demonstration_scene(studio: TheStudio, session_id: SessionId, number: Number) -> Response:
+    return await _still(studio, _existing(await studio.open(session_id), number).objects)
+
+
+@routes.post("/{session_id}/undo")
+async def undo(studio: TheStudio, session_id: SessionId, body: Revised) -> Json:
+    return await _edited(studio, await studio.open(session_id), body.revision, Undone())
+
+
+@routes.post("/{session_id}/redo")
+async def redo(studio: TheStudio, session_id: SessionId, body: Revised) -> Json:
+    return await _edited(studio, await studio.open(session_id), body.revision, Redone())
+
+
+@routes.post("/{session_id}/title")
+async def title(studio: TheStudio, session_id: SessionId, body: NewTitle) -> Json:
+    return await _edited(studio, await studio.open(session_id), body.revision, Titled(body.title.strip()))
+
+
+@routes.post("/{session_id}/merge")
+async def merge(studio: TheStudio, session_id: SessionId, body: Merge) -> Json:
+    session, other = await studio.open(session_id), await studio.open(body.other)
+    if not other.history.shown:
+        raise InvalidInputError("other session", "at least one demonstration", "none")
+    return await _edited(studio, session, body.revision, Demonstrated(other.history.shown))
+
+
+@routes.post("/{session_id}/people")
+async def people(studio: TheStudio, session_id: SessionId, body: People) -> Json:
+    session = await studio.open(session_id)
+    created, request = session.created, body.request()
+    _check_request(get_language(created.language), request)
+    if body.part == "signs":
+        signs = await asyncio.to_thread(draw_utterance, created.language, created.seed, request, body.attempt)
+        return {"signs": [stroke_to_json(sign) for sign in signs]}
+    scene = session.understood.objects, session.understood.hand
+    hand = await asyncio.to_thread(draw_answer, created.language, created.seed, request, body.attempt, scene)
+    return {"hand": stroke_to_json(hand)}
+
+
+async def _edited(studio: Studio, session: OpenSession, revision: int, event: Event) -> Json:
+    await session.edit(revision, event)
+    studio.changed(session)
+    return session_json(session, studio.arm.state)
+
+
+async def _still(studio: Studio, objects: Any) -> Response:
+    picture = await asyncio.wrap_future(studio.camera.still(objects))
+    return Response(picture, media_type="image/jpeg")
+
+
+def _prompt(session: OpenSession) -> Request | None:
+    language = get_language(session.created.language)
+    if language is None:
+        return None
+    prompts = [shown.prompt for shown in session.history.shown]
+    return next_request(language, session.created.seed, prompts).request
+
+
+def _existing(session: OpenSession, number: int) -> Shown:
+    if number >= len(session.history.shown):
+        raise NotHereError("There is no such demonstration.")
+    return session.history.shown[number]
+
+
+def _check_request(language: Language | None, request: Request) -> None:
+    if language is None:
+        raise InvalidInputError("people", "a session in a language that they know", "one in made-up signs")
+    if request not in language.requests:
+        raise InvalidInputError("people", "a movement and an object of the language", f"{tuple(request)}")

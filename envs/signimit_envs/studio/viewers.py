@@ -1,0 +1,95 @@
+"""Who watches: every page gets the newest frame it has time for, and all news."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import threading
+from collections import deque
+from typing import Any
+
+_MOST_NEWS = 100  # not yet sent to a page; one that is so far behind hears the latest only
+
+
+class Viewer:
+    """One page's mailbox. Any thread may put something in; the page's own event loop takes it out."""
+
+    def __init__(self) -> None:
+        """Start empty, in the running event loop."""
+        self._loop = asyncio.get_running_loop()
+        self._something = asyncio.Event()
+        self._frame: bytes | None = None
+        self._news: deque[str] = deque(maxlen=_MOST_NEWS)
+        self.watching = False
+
+    def put_frame(self, frame: bytes) -> None:
+        """Offer a frame; one that was not sent yet is dropped."""
+        self._frame = frame
+        self._wake()
+
+    def put_news(self, text: str) -> None:
+        """Offer a message."""
+        self._news.append(text)
+        self._wake()
+
+    async def take(self) -> str | bytes:
+        """Wait for something to send, news first."""
+        while True:
+            if self._news:
+                return self._news.popleft()
+            frame, self._frame = self._frame, None
+            if frame is not None:
+                return frame
+            self._something.clear()
+            if not self._news and self._frame is None:
+                await self._something.wait()
+
+    def _wake(self) -> None:
+        try:
+            self._loop.call_soon_threadsafe(self._something.set)
+        except RuntimeError:  # the loop ended; so will the page
+            return
+
+
+class Viewers:
+    """All pages."""
+
+    def __init__(self) -> None:
+        """Start with nobody."""
+        self._all: set[Viewer] = set()
+        self._lock = threading.Lock()
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self._all)
+
+    @property
+    def watching(self) -> bool:
+        """Whether anybody wants frames."""
+        return any(viewer.watching for viewer in self._listed())
+
+    def add(self, viewer: Viewer) -> None:
+        """Take a page in."""
+        with self._lock:
+            self._all.add(viewer)
+
+    def remove(self, viewer: Viewer) -> None:
+        """Let a page go; may be called again."""
+        with self._lock:
+            self._all.discard(viewer)
+
+    def publish(self, frame: bytes) -> None:
+        """Offer a frame to all who watch."""
+        for viewer in self._listed():
+            if viewer.watching:
+                viewer.put_frame(frame)
+
+    def tell(self, news: dict[str, Any]) -> None:
+        """Send all pages a message."""
+        text = json.dumps(news)
+        for viewer in self._listed():
+            viewer.put_news(text)
+
+    def _listed(self) -> list[Viewer]:
+        with self._lock:
+            return list(self._all)

@@ -1,0 +1,148 @@
+"""The web application: the page's files, the routes, and one sentence for whatever goes wrong."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib import resources
+from typing import Any
+
+import signimit_assets
+from signimit import __version__
+from signimit.exceptions import MissingDependencyError, SignimitError
+from signimit_envs.exceptions import RenderingError
+
+try:
+    from fastapi import FastAPI, Request, Response
+    from fastapi.exceptions import RequestValidationError
+    from fastapi.responses import JSONResponse
+    from starlette.exceptions import HTTPException
+except ImportError:
+    raise MissingDependencyError("fastapi", "studio", "The studio") from None
+
+from signimit_envs.scene import OBJECT_NAMES, TABLE, WORKSPACE
+from signimit_envs.studio import ask_routes, teach_routes
+from signimit_envs.studio.camera import picture_mapping
+from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.messages import complaint
+from signimit_envs.studio.open_session import StaleRevisionError
+from signimit_envs.studio.prompts import FREE, LANGUAGES
+from signimit_envs.studio.studio import NotHereError, Studio
+
+MEDIA_TYPES = {
+    ".html": "text/html",
+    ".js": "text/javascript",
+    ".css": "text/css",
+    ".svg": "image/svg+xml",
+    ".png": "image/png",
+    ".ico": "image/x-icon",
+    ".webmanifest": "application/manifest+json",
+}
+_PATIENCE = 60.0  # s, for OpenGL to be found
+_log = logging.getLogger(__name__)
+
+
+def create_app(studio: Studio) -> FastAPI:
+    """Make the application, without a guard; it starts the studio and closes it.
+
+    Args:
+        studio: What it serves.
+    """
+
+    @asynccontextmanager
+    async def living(app: FastAPI) -> AsyncIterator[None]:
+        studio.start()
+        try:
+            yield
+        finally:
+            await asyncio.to_thread(studio.close)
+
+    app = FastAPI(title="signimit studio", version=__version__, docs_url=None, redoc_url=None, lifespan=living)
+    _tell_errors(app)
+    app.state.studio = studio
+    for part in (teach_routes, ask_routes):
+        app.include_router(part.routes)
+
+    @app.get("/api/studio", tags=["studio"])
+    async def about() -> dict[str, Any]:
+        why_not = await asyncio.to_thread(studio.camera.why_blind, _PATIENCE)
+        return {**_facts(), "can_draw": not why_not, "why_not": why_not, "demo": studio.demo}
+
+    @app.get("/api/health", tags=["studio"])
+    async def health() -> dict[str, Any]:
+        state = studio.arm.state
+        return {"time": state.time, "lost": state.lost, "frames": studio.camera.frames, "viewers": len(studio.viewers)}
+
+    _serve_page(app)
+    return app
+
+
+def _facts() -> dict[str, Any]:
+    return {
+        "version": __version__,
+        "picture": picture_mapping(),
+        "table": TABLE.tolist(),
+        "workspace": WORKSPACE.tolist(),
+        "objects": list(OBJECT_NAMES),
+        "colours": list(OBJECT_COLOURS),
+        "languages": [*LANGUAGES, FREE],
+        "limits": {name: getattr(LIMITS, name) for name in LIMITS.__dataclass_fields__},
+        "exports": [],
+    }
+
+
+OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
+
+
+def _serve_page(app: FastAPI) -> None:
+    """Serve the files of the page, which are known by name beforehand."""
+    folder = resources.files(signimit_assets) / "studio"
+    files = {file.name: file for file in folder.iterdir()} if folder.is_dir() else {}
+    types = {name: MEDIA_TYPES.get("." + name.rpartition(".")[2]) for name in files}
+
+    @app.get("/", include_in_schema=False)
+    async def page() -> Response:
+        return await page_file("index.html")
+
+    @app.get("/{name}", include_in_schema=False)
+    async def page_file(name: str) -> Response:
+        media_type = types.get(name)
+        if media_type is None:
+            raise NotHereError("There is no such page.")
+        return Response(files[name].read_bytes(), media_type=media_type)
+
+
+def _tell_errors(app: FastAPI) -> None:
+    """Answer every kind of error with its code and one sentence."""
+
+    def refused(status: int, sentence: str, **more: Any) -> JSONResponse:
+        _log.info("refused with %d: %s", status, sentence)
+        return JSONResponse({"error": sentence, **more}, status)
+
+    @app.exception_handler(SignimitError)
+    async def unusable(request: Request, error: SignimitError) -> JSONResponse:
+        return refused(422, str(error))
+
+    @app.exception_handler(StaleRevisionError)
+    async def stale(request: Request, error: StaleRevisionError) -> JSONResponse:
+        return refused(409, "Another tab changed this session; look again.", revision=error.expected)
+
+    @app.exception_handler(RenderingError)
+    async def blind(request: Request, error: RenderingError) -> JSONResponse:
+        return refused(503, str(error))
+
+    @app.exception_handler(NotHereError)
+    async def missing(request: Request, error: NotHereError) -> JSONResponse:
+        return refused(404, str(error))
+
+    @app.exception_handler(HTTPException)
+    async def http(request: Request, error: HTTPException) -> JSONResponse:
+        return refused(error.status_code, str(error.detail))
+
+    @app.exception_handler(RequestValidationError)
+    async def malformed(request: Request, error: RequestValidationError) -> JSONResponse:
+        errors = error.errors()
+        status = 400 if any(one["type"] == "json_invalid" for one in errors) else 422
+        return refused(status, complaint(errors))
