@@ -76,6 +76,13 @@ def get_entrant(reference: EntrantReference) -> Entrant | Oracle:
     return Entrant(name=reference.slug, title=title, make=lambda kit: make())
 
 
+def entrant_names() -> tuple[str, ...]:
+    """Return the names of all registered entrants."""
+    from signimit.benchmark.entries import ENTRANTS
+
+    return tuple(ENTRANTS)
+
+
 def _registered(name: str) -> Entrant | Oracle:
     from signimit.benchmark.entries import ENTRANTS
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.commands import Command
 from signimit.composition import GroundTruth
-from signimit.evaluation import movement_error, performed, prepare_templates, settled_part
+from signimit.evaluation import TOLERANCE, movement_error, performed, prepare_templates, settled_part
 from signimit.languages import Request
 from signimit.understanding import Reading, Understanding
 
@@ -91,9 +91,10 @@ class Judge:
     def judge(self, path: NDArray[np.float64], command: Command) -> Done:
         """Say whether a path, shape (T, 2), m, table frame, does what a command asks for."""
         movement, focus = command.request
-        performance = performed(path, command.objects, self._templates)
-        tail = settled_part(path)
-        misfit = WORST
+        tail, misfit = settled_part(path), WORST
         if tail is not None:
             misfit = min(WORST, movement_error(tail - command.objects[focus], self._prepared[movement]))
+        if misfit > TOLERANCE:  # then no comparison with other movements and objects can make it right
+            return Done(False, misfit)
+        performance = performed(path, command.objects, self._templates)
         return Done((performance.movement, performance.focus) == command.request, misfit)

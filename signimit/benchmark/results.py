@@ -1,0 +1,181 @@
+"""Files of results: a line of JSON for each session, and a summary of all of them.
+
+A killed run goes on where it stopped. Results of other code, other sessions or another entry are never mixed: they are
+refused in one sentence, and left as they are.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from signimit.atomic import replaced_file
+from signimit.benchmark.engines import Engine
+from signimit.benchmark.frozen import split_hash
+from signimit.benchmark.protocol import Oracle
+from signimit.benchmark.provenance import code_hash, versions
+from signimit.benchmark.registry import EntrantReference, get_entrant
+from signimit.benchmark.running import Task
+from signimit.benchmark.splits import SPLITS
+from signimit.benchmark.statistics import STAGES, estimate_stage
+from signimit.exceptions import FileFormatError
+from signimit.records import Record, append_record, read_records
+
+FORMAT, VERSION = "signimit benchmark results", 1
+Summary = dict[str, Any]
+
+
+class ResultFile(NamedTuple):
+    """Where the results of an entrant are.
+
+    Attributes:
+        folder: Folder of all results.
+        entrant: Whose.
+    """
+
+    folder: Path
+    entrant: EntrantReference
+
+    @property
+    def records(self) -> Path:
+        """A line for each session."""
+        return self.folder / f"{self.entrant.slug}.jsonl"
+
+    @property
+    def summary(self) -> Path:
+        """What the table is made of."""
+        return self.folder / f"{self.entrant.slug}.json"
+
+    @property
+    def header(self) -> Record:
+        """What must not change from one run to the next."""
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "entry": self.entrant.name,
+            "source": hashlib.sha256(self.entrant.source.encode()).hexdigest() if self.entrant.source else None,
+            "code": code_hash(),
+            "splits": {name: split_hash(name) for name in SPLITS},
+        }
+
+    def read(self) -> list[Record]:
+        """Read the records of the sessions that were run, each once.
+
+        Raises:
+            FileFormatError: If they are not of this entry, this code and these splits.
+        """
+        lines = read_records(self.records)
+        if not lines:
+            return []
+        wanted, found = self.header, lines[0]
+        for key, value in wanted.items():
+            if found.get(key) != value:
+                expected = f"{key} {_short(value)}; give another --out, or move the file away"
+                raise FileFormatError(str(self.records), expected, _short(found.get(key)))
+        unique = {(r["split"], r["seed"]): r for r in lines[1:]}
+        order = list(SPLITS)
+        return sorted(unique.values(), key=lambda r: (order.index(r["split"]), r["seed"]))
+
+    def append(self, record: Record) -> None:
+        """Add the record of a session."""
+        append_record(self.records, record)
+
+
+def run_missing(file: ResultFile, splits: Sequence[str], seeds: Iterable[int], engine: Engine) -> Iterator[Record]:
+    """Run every session that is not in the file yet, and write it down there; yields as they end.
+
+    Raises:
+        FileFormatError: If the file has results that these cannot join; or a worker runs other code.
+    """
+    done = {(r["split"], r["seed"]) for r in file.read()}
+    if not file.records.exists() or not file.records.stat().st_size:
+        file.append(file.header)
+    todo = (Task(file.entrant, split, seed) for seed in seeds for split in splits if (split, seed) not in done)
+    for record in engine(todo):
+        if record["code"] != code_hash():
+            raise FileFormatError("record of a worker", f"code {code_hash()}", str(record["code"]))
+        file.append(record)
+        yield record
+
+
+def summarise(file: ResultFile) -> Summary:
+    """Count everything that is in a file, with the facts that made it."""
+    entrant, records = get_entrant(file.entrant), file.read()
+    splits = {}
+    for name in SPLITS:
+        mine = [r for r in records if r["split"] == name]
+        if mine:
+            splits[name] = _summarise_split(name, mine)
+    facts = {**file.header, "title": entrant.title, "oracle": isinstance(entrant, Oracle)}
+    del facts["splits"]
+    return {**facts, "versions": versions(), "digest": records_digest(records), "splits": splits}
+
+
+def _summarise_split(name: str, records: Sequence[Record]) -> dict[str, Any]:
+    stages = {stage: estimate_stage(stage, records) for stage in STAGES}
+    return {
+        "sha256": split_hash(name),
+        "seeds": _ranges([r["seed"] for r in records]),
+        "sessions": len(records),
+        "demonstrations": sum(r["demonstrations"] for r in records),
+        "commands": sum(len(r["obeyed"]) for r in records),
+        "seconds": round(sum(sum(r["seconds"].values()) for r in records), 2),
+        "stages": {stage: estimate._asdict() for stage, estimate in stages.items() if estimate is not None},
+    }
+
+
+def records_digest(records: Iterable[Record]) -> str:
+    """Return the SHA-256 of records in the order of `ResultFile.read`, leaving out how long they took."""
+    sha = hashlib.sha256()
+    for record in records:
+        lasting = {key: value for key, value in record.items() if key != "seconds"}
+        sha.update(json.dumps(lasting, sort_keys=True).encode() + b"\n")
+    return sha.hexdigest()
+
+
+def _ranges(seeds: Sequence[int]) -> list[list[int]]:
+    """Say which seeds there are, as first and last of each run of consecutive ones."""
+    ranges: list[list[int]] = []
+    for seed in sorted(seeds):
+        if ranges and seed == ranges[-1][1] + 1:
+            ranges[-1][1] = seed
+        else:
+            ranges.append([seed, seed])
+    return ranges
+
+
+def write_summary(file: ResultFile) -> Summary:
+    """Write the summary, whole or not at all, and return it."""
+    summary = summarise(file)
+    with replaced_file(file.summary) as out:
+        out.write((json.dumps(summary, indent=1) + "\n").encode())
+    return summary
+
+
+def read_summaries(folder: Path) -> list[Summary]:
+    """Read all summaries of a folder.
+
+    Raises:
+        FileFormatError: If one is not a whole summary of this version.
+    """
+    summaries = []
+    for path in sorted(folder.glob("*.json")):
+        try:
+            summary = json.loads(path.read_text(encoding="utf-8"))
+            found = f"{summary['format']} version {summary['version']}"
+        except (ValueError, KeyError, TypeError):
+            found = "something else"
+        if found != f"{FORMAT} version {VERSION}":
+            raise FileFormatError(str(path), f"{FORMAT} version {VERSION}", found)
+        summaries.append(summary)
+    if not summaries:
+        raise FileFormatError(str(folder), "results; `benchmark.py run` makes them", "none")
+    return summaries
+
+
+def _short(value: object) -> str:
+    text = json.dumps(value)
+    return text if len(text) <= 60 else f"{text[:40]}... (SHA-256 {hashlib.sha256(text.encode()).hexdigest()[:8]})"

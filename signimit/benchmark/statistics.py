@@ -1,0 +1,118 @@
+"""Scores of many sessions, with 95 % intervals that know that commands of one session share its luck."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.stats import t
+
+from signimit.intervals import wilson_interval
+from signimit.records import Record
+
+
+class Estimate(NamedTuple):
+    """A mean of scores.
+
+    Attributes:
+        mean: It.
+        low: Lower end of its 95 % interval.
+        high: Upper end.
+        total: Sum of the scores.
+        count: How many there are.
+    """
+
+    mean: float
+    low: float
+    high: float
+    total: float
+    count: int
+
+
+class Stage(NamedTuple):
+    """Something that is scored.
+
+    Attributes:
+        title: Head of its column.
+        meaning: What it is.
+    """
+
+    title: str
+    meaning: str
+
+
+STAGES: dict[str, Stage] = {
+    "groups": Stage("groups", "adjusted Rand index of the movements found in the demonstrations"),
+    "focus": Stage("focus", "demonstrations whose object was inferred right"),
+    "order": Stage("word order", "sessions in which both words have their right place"),
+    "read": Stage("signs", "signs of the commands, two each, that were read right"),
+    "obeyed": Stage("obeyed", "commands after which the hand had done what was asked for"),
+    "misfit": Stage("misfit", "of the hand's path to what was asked for, in half sizes of the drawings, 1 at worst"),
+    "families": Stage("families", "counterfactual families all of whose four commands were obeyed"),
+}
+
+
+def estimate_stage(stage: str, records: Sequence[Record]) -> Estimate | None:
+    """Estimate one of `STAGES` from sessions of one split; None if it was not scored in all of them."""
+    if not records or not all(("families" if stage == "families" else stage) in r for r in records):
+        return None
+    scores = [_session_scores(stage, r) for r in records]
+    estimate = estimate_misfit if stage == "misfit" else estimate_share
+    return estimate([s for s, _ in scores], [n for _, n in scores])
+
+
+def _session_scores(stage: str, record: Record) -> tuple[float, int]:
+    """Return the sum and the number of a session's scores."""
+    if stage == "families":
+        whole: dict[int, bool] = {}
+        for family, obeyed in zip(record["families"], record["obeyed"], strict=True):
+            whole[family] = whole.get(family, True) and bool(obeyed)
+        return float(sum(whole.values())), len(whole)
+    scores = record[stage]
+    if not isinstance(scores, list):
+        return float(scores), 1
+    return float(sum(scores)), len(scores) * (2 if stage == "read" else 1)
+
+
+def estimate_share(sums: ArrayLike, counts: ArrayLike) -> Estimate:
+    """Estimate the mean of shares, or of what is right or wrong, that come in clusters.
+
+    Wilson's interval, with as many independent scores as the spread between clusters leaves: p (1 - p) over the
+    variance of the mean, but not fewer than clusters nor more than scores (E. L. Korn and B. I. Graubard, Survey
+    Methodology 24, 1998). No variable in [0, 1] spreads more than a coin of the same mean, so that this holds for
+    shares, too.
+
+    Args:
+        sums: Sum of the scores of each cluster, shape (n,).
+        counts: How many scores each has, shape (n,).
+    """
+    total, count = np.asarray(sums, dtype=np.float64), np.asarray(counts, dtype=np.float64)
+    scores = float(count.sum())
+    mean = float(total.sum() / scores)
+    share, variance = min(1.0, max(0.0, mean)), _variance_of_mean(total, count)  # a Rand index may be below 0
+    effective = scores
+    if variance > 0 and 0 < share < 1:
+        effective = min(scores, max(float(len(total)), share * (1 - share) / variance))
+    low, high = wilson_interval(share * effective, effective)
+    return Estimate(mean, min(low, mean), max(high, mean), float(total.sum()), int(scores))
+
+
+def estimate_misfit(sums: ArrayLike, counts: ArrayLike) -> Estimate:
+    """Estimate the mean of lengths in [0, 1] that come in clusters, with Student's interval; [0, 1] of one cluster."""
+    total, count = np.asarray(sums, dtype=np.float64), np.asarray(counts, dtype=np.float64)
+    mean, clusters = float(total.sum() / count.sum()), len(total)
+    low, high = 0.0, 1.0
+    if clusters > 1:
+        half = float(t.ppf(0.975, clusters - 1)) * float(np.sqrt(_variance_of_mean(total, count)))
+        low, high = max(0.0, mean - half), min(1.0, mean + half)
+    return Estimate(mean, low, high, float(total.sum()), int(count.sum()))
+
+
+def _variance_of_mean(total: NDArray[np.float64], count: NDArray[np.float64]) -> float:
+    """Return the ratio estimator's variance of the mean; 0 of one cluster, of which nothing can be told."""
+    clusters, mean = len(total), total.sum() / count.sum()
+    if clusters < 2:
+        return 0.0
+    return float(clusters / (clusters - 1) * ((total - mean * count) ** 2).sum() / count.sum() ** 2)
