@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.entries.imitator import Imitator, certain_reading
-from signimit.benchmark.protocol import Kit, Observation, Oracle, Truth
+from signimit.benchmark.protocol import Kit, Observation, Truth
 from signimit.demonstrations import DemonstrationSet
 from signimit.frames import on_table
 from signimit.grouping import canonical_labels, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
-from signimit.learners import get_learner
 from signimit.learning import ImitationModel
 from signimit.policies import DEFAULT_POLICY
 from signimit.signs import SignSpace
