@@ -110,7 +110,7 @@ def draw_maximum_similarity(similarity: NDArray[np.float64], labels: ArrayLike) 
 
 def draw_reproductions(
     paths: Mapping[tuple[int, int], Paths],
-    obeyed: Mapping[tuple[int, int], Sequence[bool]],
+    obeyed: Mapping[tuple[int, int], Sequence[bool | None]],
     movements: Sequence[str],
     unseen: frozenset[tuple[int, int]],
 ) -> Figure:
@@ -118,7 +118,8 @@ def draw_reproductions(
 
     Args:
         paths: Hand paths in that object's frame, each (T, 2), m, by (movement, focus).
-        obeyed: Whether each of these paths did what was asked for; those that did not are dashed.
+        obeyed: Whether each of these paths did what was asked for, none if nobody judged it; those that did not are
+            dashed.
         movements: Names of the movements.
         unseen: The pairs that were never demonstrated; their panels are framed.
     """
@@ -127,8 +128,8 @@ def draw_reproductions(
     for (movement, focus), attempts in paths.items():
         panel = axes[movement, focus]
         verdicts = obeyed[movement, focus]
-        _draw_about(panel, attempts, focus, _HALF_VIEW + 0.05, ["-" if right else ":" for right in verdicts])
-        note = f"{sum(verdicts)} of {len(verdicts)} obeyed"
+        _draw_about(panel, attempts, focus, _HALF_VIEW + 0.05, [":" if right is False else "-" for right in verdicts])
+        note = _verdict_note(verdicts)
         if (movement, focus) in unseen:
             _frame(panel)
             note = f"never demonstrated, {note}"
@@ -144,6 +145,13 @@ def draw_reproductions(
         fontsize=11,
     )
     return figure
+
+
+def _verdict_note(verdicts: Sequence[bool | None]) -> str:
+    judged = [right for right in verdicts if right is not None]
+    if not judged:
+        return "not judged"
+    return f"{sum(judged)} of {len(judged)} obeyed" + (", others not judged" if len(judged) < len(verdicts) else "")
 
 
 def draw_memberships(history: NDArray[np.float64], labels: ArrayLike) -> Figure:

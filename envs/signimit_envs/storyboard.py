@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.demonstrations import Demonstration
 from signimit.summary import object_name, ordinal
 from signimit_envs.scene import CONTROL_RATE
 from signimit_envs.session import Answer, Reproduction, SessionResult
@@ -76,8 +77,14 @@ def tell_story(result: SessionResult) -> Iterator[Shot]:
 def show_demonstration(result: SessionResult, number: int, haste: int) -> Iterator[Shot]:
     """Show the signs being made (A) and the demonstrator's answer (B), ``haste`` times faster than they were."""
     demonstrations = result.session.demonstrations
-    demonstration, count = demonstrations[number], len(demonstrations)
-    title = f"Demonstration {number} (0 to {count - 1})" + (f", {haste} times faster" if haste > 1 else "")
+    title = f"Demonstration {number} (0 to {len(demonstrations) - 1})" + (
+        f", {haste} times faster" if haste > 1 else ""
+    )
+    yield from show_exchange(demonstrations[number], title, haste)
+
+
+def show_exchange(demonstration: Demonstration, title: str, haste: int = 1) -> Iterator[Shot]:
+    """Show a demonstration under a title: the signs being made (A), then the demonstrator's answer (B)."""
     scene = Shot(phase="A", caption=f"{title}: the interactant signs", objects=demonstration.objects)
     yield from _signing(scene, demonstration.signs, haste)
     scene = replace(

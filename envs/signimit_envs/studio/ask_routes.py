@@ -29,12 +29,14 @@ routes = APIRouter(tags=["ask"])
 
 @routes.post("/api/sessions/{session_id}/table")
 async def table(studio: TheStudio, session_id: SessionId) -> Json:
+    """Put the arm and new objects on the live table."""
     objects, hand = studio.set_table(await studio.open(session_id))
     return {"objects": objects.tolist(), "hand": hand.tolist()}
 
 
 @routes.post("/api/sessions/{session_id}/ask")
 async def ask(studio: TheStudio, session_id: SessionId, body: Ask) -> Json:
+    """Let the arm answer two signs, on the live table as it is."""
     session = await studio.open(session_id)
     request = None if body.request is None else body.request.request()
     number = await studio.ask(session, signs_of(body.signs), request)
@@ -45,6 +47,7 @@ async def ask(studio: TheStudio, session_id: SessionId, body: Ask) -> Json:
 
 @routes.post("/api/sessions/{session_id}/stop")
 async def stop(studio: TheStudio, session_id: SessionId) -> Json:
+    """Let the arm hold still."""
     session = await studio.open(session_id)
     if studio.arm.state.session == session.name:
         studio.arm.rest()
@@ -53,6 +56,7 @@ async def stop(studio: TheStudio, session_id: SessionId) -> Json:
 
 @routes.post("/api/sessions/{session_id}/answers/{number}/verdict")
 async def verdict(studio: TheStudio, session_id: SessionId, number: Number, body: Verdict) -> Json:
+    """Keep what a person thinks of an answer."""
     session = await studio.open(session_id)
     _check_answer(session, number)
     await session.note(lambda _: Judged(number, body.good))
@@ -62,6 +66,7 @@ async def verdict(studio: TheStudio, session_id: SessionId, number: Number, body
 
 @routes.get("/api/sessions/{session_id}/answers/{number}")
 async def answer(studio: TheStudio, session_id: SessionId, number: Number) -> Json:
+    """Return what the arm was asked and what it did."""
     session = await studio.open(session_id)
     _check_answer(session, number)
     given = session.history.answers[number]
@@ -75,6 +80,7 @@ async def answer(studio: TheStudio, session_id: SessionId, number: Number) -> Js
 
 @routes.websocket("/ws")
 async def live(studio: TheStudio, socket: WebSocket) -> None:
+    """Send frames and news to a page, and do what it says."""
     await socket.accept()
     if len(studio.viewers) >= LIMITS.viewers:
         await socket.close(TOO_MANY_VIEWERS, f"at most {LIMITS.viewers} pages")

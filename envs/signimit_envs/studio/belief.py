@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.asking import Query
 from signimit.explanation import Reasons
 from signimit.learning import ImitationModel, Response
 from signimit.signs import normalised_sign, resampled_path
@@ -16,13 +17,8 @@ _SIGN_POINTS, _DRAWING_POINTS = 2, 64  # every second of a sign's 64 points; poi
 _MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen
 
 
-def belief_json(model: ImitationModel, seconds: float) -> dict[str, Any]:
-    """Say what a model has understood; numbers are rounded for the screen.
-
-    Args:
-        model: The model, of a method that has probabilities.
-        seconds: How long it took to understand.
-    """
+def belief_json(model: ImitationModel) -> dict[str, Any]:
+    """Say what a model, of a method that has probabilities, has understood; numbers are rounded for the screen."""
     reasons, order = model.explain(), model.word_order
     return {
         "movements": [{"number": m, "members": list(found.members)} for m, found in enumerate(model.movements)],
@@ -38,7 +34,20 @@ def belief_json(model: ImitationModel, seconds: float) -> dict[str, Any]:
         "lexicon": {"objects": _object_words(model), "movements": _movement_words(model)},
         "doubtful": doubts(reasons),
         "text": model.summary(),
-        "seconds": round(seconds, 3),
+    }
+
+
+def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
+    """Say what the imitator would like to see next."""
+    asked = f"movement {wish.movement} about the {object_name(wish.focus)} object"
+    words = [f"the {ordinal(word)} of demonstration {number}" for word, number in enumerate(wish.copied)]
+    known = ((model.labels == wish.movement) & (model.focus == wish.focus)).any()
+    reason = "to be surer" if known else "as nobody has shown me that yet"
+    return {
+        "text": f"Please make signs like {' and '.join(words)}: I think they ask for {asked}, and ask {reason}.",
+        "request": {"movement": wish.movement, "focus": wish.focus},
+        "signs": [sign_json(sign) for sign in wish.signs],
+        "copied": list(wish.copied),
     }
 
 

@@ -77,7 +77,11 @@ class Camera:
         return self._blind
 
     def still(self, objects: NDArray[np.float64]) -> Future[bytes]:
-        """Ask for a JPEG of a table with objects, shape (O, 2), m, the arm out of the way; RenderingError if there is none."""
+        """Ask for a JPEG of a table with objects, shape (O, 2), m, the arm out of the way.
+
+        Returns:
+            The picture, later; a RenderingError if there is no OpenGL.
+        """
         future: Future[bytes] = Future()
         self._wanted.put((objects, future))
         return future
@@ -102,7 +106,6 @@ class Camera:
             self._stop.wait(max(0.0, due - time.perf_counter()))
         for stage in self._stages.values():
             stage.close()
-        self._draw_stills()
 
     def _draw_stills(self) -> None:
         while not self._wanted.empty():

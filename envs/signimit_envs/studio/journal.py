@@ -1,6 +1,7 @@
 """A file that only grows: one line of JSON for each thing that happened, on the disk before anybody hears of it.
 
-A process that is killed while it writes leaves at most one line without an end; whoever opens the file next cuts it off.
+A process that is killed while it writes leaves at most one line without an end; whoever opens the file next
+cuts it off.
 """
 
 from __future__ import annotations

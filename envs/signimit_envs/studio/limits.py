@@ -14,6 +14,8 @@ class Limits:
     Attributes:
         body: Bytes of a request.
         upload: Bytes of an imported file.
+        unpacked: Bytes of what is in it.
+        reach: Distance of objects and hands from the table's middle along an axis, m.
         message: Bytes of a message on the socket.
         points: Points of a stroke.
         seconds: Length of a stroke, s.
@@ -33,6 +35,8 @@ class Limits:
 
     body: int = 4 * 2**20
     upload: int = 32 * 2**20
+    unpacked: int = 256 * 2**20
+    reach: float = 2.0
     message: int = 1024
     points: int = 5000
     seconds: float = 600.0

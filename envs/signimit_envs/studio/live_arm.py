@@ -1,4 +1,4 @@
-"""The simulated arm, alive: physics in real time in a thread of its own, which obeys, is shoved and is dragged about."""
+"""The simulated arm, alive: physics in real time in a thread of its own; it obeys, and can be interfered with."""
 
 from __future__ import annotations
 
@@ -106,7 +106,10 @@ class LiveArm:
         self._thread = threading.Thread(target=self._live, name="live arm", daemon=True)
         self._steps, self._lost = 0, 0.0
         self._session: str | None = None
+        self._errand: Errand | None = None
         self._push: Push | None = None
+        self._track: list[tuple[Array, Array, Array]] = []
+        self._told = 0
         self._trail: deque[tuple[float, float]] = deque(maxlen=round(TRAIL_SECONDS * CONTROL_RATE / TRAIL_STRIDE))
         self._set_table(3)
         self._put(None, np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]]), np.zeros(2))
@@ -140,7 +143,7 @@ class LiveArm:
         self._inbox.put(self._end)
 
     def drag(self, number: int, place: Array) -> None:
-        """Move an object to a place, shape (2,), m; it stays in the workspace. An object that is not there is not moved."""
+        """Move an object, if there is one of that number, to a place in the workspace, shape (2,), m."""
         self._inbox.put(lambda: self._drag(number, place))
 
     def shove(self, velocity: Array) -> None:
@@ -214,12 +217,9 @@ class LiveArm:
     def _set_table(self, objects: int) -> None:
         self._env = TabletopHandEnv(objects=objects)
         self._bodies = object_bodies(self._env.model)
-        self._errand: Errand | None = None
-        self._track: list[tuple[Array, Array, Array]] = []
-        self._told = 0
 
     def _put(self, session: str | None, objects: Array, hand: Array) -> None:
-        self._end_if_begun()
+        self._end()
         if len(objects) != len(self._bodies):
             self._env.close()
             self._set_table(len(objects))
@@ -229,15 +229,12 @@ class LiveArm:
         self._look(observation)
 
     def _begin(self, errand: Errand) -> None:
-        self._end_if_begun()
+        self._end()
         self._trail.clear()
         self._errand, self._told = errand, 0
         self._move = hand_velocities(errand.policy)
 
     def _end(self) -> None:
-        self._end_if_begun()
-
-    def _end_if_begun(self) -> None:
         self._hand_over()
         self._errand = None
 

@@ -99,6 +99,7 @@ class NewDemonstration(Revised):
 
     signs: Utterance
     hand: StrokeMessage
+    prompted: bool = True  # whether it is what the prompt asked for
 
     def hand_stroke(self) -> Stroke:
         """Return the hand's path.

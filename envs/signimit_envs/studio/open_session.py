@@ -8,7 +8,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from typing import TypeVar
 
-from signimit.exceptions import InvalidInputError
+from signimit.exceptions import InvalidInputError, SignimitError
 from signimit.learning import ImitationModel
 from signimit_envs.studio.events import Asked, Created, Deleted, Demonstrated, Event, Redrawn
 from signimit_envs.studio.history import History, after
@@ -19,8 +19,22 @@ from signimit_envs.studio.understanding import Understood, prepare_policies, und
 Result = TypeVar("Result")
 
 
-class StaleRevisionError(InvalidInputError):
-    """Somebody changed the session since the page last saw it."""
+class StaleRevisionError(SignimitError, ValueError):
+    """Somebody changed the session since the page last saw it.
+
+    Attributes:
+        latest: The revision that the session is at.
+        found: The revision that the page last saw.
+    """
+
+    def __init__(self, latest: int, found: int) -> None:
+        """Keep the facts."""
+        self.latest, self.found = latest, found
+        super().__init__(latest, found)
+
+    def __str__(self) -> str:
+        """Return the sentence."""
+        return f"Another tab changed this session: it is at revision {self.latest}, not {self.found}."
 
 
 class OpenSession:
@@ -76,7 +90,7 @@ class OpenSession:
         """
         async with self._lock:
             if revision != self.history.revision:
-                raise StaleRevisionError("revision", f"{self.history.revision}, the latest", f"{revision}")
+                raise StaleRevisionError(self.history.revision, revision)
             shown = self.history.shown
             await self._note(event)
             if shown is not self.history.shown:

@@ -46,7 +46,7 @@ def serve_studio(plan: StudioPlan, announce: Callable[[str], object]) -> None:
     """
     try:
         import uvicorn
-        import websockets as _
+        import websockets  # noqa: F401 -- uvicorn would go on without it, and without a socket
     except ImportError as error:
         raise MissingDependencyError(error.name or "uvicorn", "studio", "The studio") from None
     from signimit_envs.studio.guard import Guard

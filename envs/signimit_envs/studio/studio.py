@@ -6,8 +6,10 @@ import asyncio
 import logging
 import time
 from collections import deque
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from typing import TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
@@ -26,6 +28,7 @@ from signimit_envs.studio.shelf import Shelf
 from signimit_envs.studio.viewers import Viewers
 
 _KEPT_OPEN = 4  # sessions; an older one is read again when somebody comes back to it
+Result = TypeVar("Result")
 _log = logging.getLogger(__name__)
 
 
@@ -54,6 +57,7 @@ class Studio:
         self._rng = np.random.default_rng(seed)
         self._learner = ThreadPoolExecutor(1, "learner")
         self._recorder = ThreadPoolExecutor(1, "recorder")
+        self._darkroom = ThreadPoolExecutor(1, "darkroom")
         self._open: WeakValueDictionary[str, OpenSession] = WeakValueDictionary()
         self._recent: deque[OpenSession] = deque(maxlen=_KEPT_OPEN)
         self._opening = asyncio.Lock()
@@ -68,6 +72,7 @@ class Studio:
         self.camera.close()
         self.arm.close()
         self._learner.shutdown(cancel_futures=True)
+        self._darkroom.shutdown(cancel_futures=True)
         self._recorder.shutdown()
         self.shelf.close()
 
@@ -123,6 +128,10 @@ class Studio:
         await session.note(asked)
         self.arm.obey(Errand(session.name, numbers[0], policy, response.focus, answer_text(response)))
         return numbers[0]
+
+    async def develop(self, work: Callable[[], Result]) -> Result:
+        """Make a figure or a film: one at a time, or the arm would get too little of the processor."""
+        return await asyncio.get_running_loop().run_in_executor(self._darkroom, work)
 
     def changed(self, session: OpenSession) -> None:
         """Tell all pages that a session is not what it was."""

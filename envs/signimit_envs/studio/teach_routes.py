@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Query, Response
@@ -43,12 +44,14 @@ routes = APIRouter(prefix="/api/sessions", tags=["teach"])
 
 @routes.get("")
 async def listed(studio: TheStudio) -> Json:
+    """List the sessions, the newest first."""
     found = await asyncio.to_thread(studio.shelf.listed)
     return {"sessions": [one._asdict() for one in found]}
 
 
 @routes.post("", status_code=201)
 async def create(studio: TheStudio, body: NewSession) -> Json:
+    """Begin a session."""
     language = get_language(body.language)
     objects = body.objects if language is None else language.objects
     session = await studio.create(body.title.strip(), body.language, objects, body.seed)
@@ -58,32 +61,38 @@ async def create(studio: TheStudio, body: NewSession) -> Json:
 
 @routes.get("/{session_id}")
 async def shown(studio: TheStudio, session_id: SessionId) -> Json:
+    """Return a session."""
     return session_json(await studio.open(session_id), studio.arm.state)
 
 
 @routes.get("/{session_id}/scene.jpg")
 async def scene(studio: TheStudio, session_id: SessionId) -> Response:
+    """Picture the table of the next demonstration."""
     session = await studio.open(session_id)
     return await _still(studio, session.understood.objects)
 
 
 @routes.post("/{session_id}/demonstrations")
 async def demonstrate(studio: TheStudio, session_id: SessionId, body: NewDemonstration) -> Json:
+    """Add a demonstration, made in the scene that the session said comes next."""
     session = await studio.open(session_id)
-    shown = Shown(signs_of(body.signs), session.understood.objects, body.hand_stroke(), _prompt(session))
+    prompt = _prompt(session) if body.prompted else None
+    shown = Shown(signs_of(body.signs), session.understood.objects, body.hand_stroke(), prompt)
     return await _edited(studio, session, body.revision, Demonstrated((shown,)))
 
 
 @routes.put("/{session_id}/demonstrations/{number}")
 async def redraw(studio: TheStudio, session_id: SessionId, number: Number, body: NewDemonstration) -> Json:
+    """Put another drawing in the place of a demonstration, in its scene."""
     session = await studio.open(session_id)
     old = _existing(session, number)
-    again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), old.prompt)
+    again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), old.prompt if body.prompted else None)
     return await _edited(studio, session, body.revision, Redrawn(number, again))
 
 
 @routes.delete("/{session_id}/demonstrations/{number}")
 async def delete(studio: TheStudio, session_id: SessionId, number: Number, revision: RevisionQuery) -> Json:
+    """Take a demonstration out."""
     session = await studio.open(session_id)
     _existing(session, number)
     return await _edited(studio, session, revision, Deleted(number))
@@ -91,6 +100,7 @@ async def delete(studio: TheStudio, session_id: SessionId, number: Number, revis
 
 @routes.get("/{session_id}/demonstrations/{number}")
 async def demonstration(studio: TheStudio, session_id: SessionId, number: Number) -> Json:
+    """Return the strokes of a demonstration."""
     session = await studio.open(session_id)
     _existing(session, number)
     return demonstration_json(session, number)
@@ -98,34 +108,43 @@ async def demonstration(studio: TheStudio, session_id: SessionId, number: Number
 
 @routes.get("/{session_id}/demonstrations/{number}/scene.jpg")
 async def demonstration_scene(studio: TheStudio, session_id: SessionId, number: Number) -> Response:
+    """Picture the table of a demonstration."""
     return await _still(studio, _existing(await studio.open(session_id), number).objects)
 
 
 @routes.post("/{session_id}/undo")
 async def undo(studio: TheStudio, session_id: SessionId, body: Revised) -> Json:
+    """Take the last edit back."""
     return await _edited(studio, await studio.open(session_id), body.revision, Undone())
 
 
 @routes.post("/{session_id}/redo")
 async def redo(studio: TheStudio, session_id: SessionId, body: Revised) -> Json:
+    """Take the last undo back."""
     return await _edited(studio, await studio.open(session_id), body.revision, Redone())
 
 
 @routes.post("/{session_id}/title")
 async def title(studio: TheStudio, session_id: SessionId, body: NewTitle) -> Json:
+    """Give the session another title."""
     return await _edited(studio, await studio.open(session_id), body.revision, Titled(body.title.strip()))
 
 
 @routes.post("/{session_id}/merge")
 async def merge(studio: TheStudio, session_id: SessionId, body: Merge) -> Json:
+    """Append another session's demonstrations."""
     session, other = await studio.open(session_id), await studio.open(body.other)
     if not other.history.shown:
         raise InvalidInputError("other session", "at least one demonstration", "none")
-    return await _edited(studio, session, body.revision, Demonstrated(other.history.shown))
+    taken = other.history.shown
+    if other.created.language != session.created.language:  # its prompts mean something else here
+        taken = tuple(replace(shown, prompt=None) for shown in taken)
+    return await _edited(studio, session, body.revision, Demonstrated(taken))
 
 
 @routes.post("/{session_id}/people")
 async def people(studio: TheStudio, session_id: SessionId, body: People) -> Json:
+    """Let built-in people draw signs, or the movement in the scene that comes next; nothing is stored."""
     session = await studio.open(session_id)
     created, request = session.created, body.request()
     _check_request(get_language(created.language), request)

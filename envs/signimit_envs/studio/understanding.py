@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from signimit.demonstrations import DemonstrationSet
 from signimit.learning import ImitationModel, learn
 from signimit.scenes import sample_hand, sample_scene
-from signimit_envs.studio.belief import belief_json
+from signimit_envs.studio.belief import belief_json, wish_json
 from signimit_envs.studio.history import Demonstrations, History
 
+_SCENES = 16  # out of which the imitator chooses the one that teaches it most
 _log = logging.getLogger(__name__)
 
 
@@ -46,17 +47,18 @@ def understand(history: History, before: Understood | None) -> Understood:
         before: What was understood last, to go on from.
     """
     rng = np.random.default_rng([history.created.seed, 1, len(history.shown)])
-    scene = sample_scene(rng, history.created.objects), sample_hand(rng)
+    hand, scenes = sample_hand(rng), np.array([sample_scene(rng, history.created.objects) for _ in range(_SCENES)])
     if not history.shown:
-        return Understood((), None, None, *scene)
+        return Understood((), None, None, scenes[0], hand)
     start = time.perf_counter()
     try:
         model = _learned(history.shown, before)
-        belief = belief_json(model, time.perf_counter() - start)
+        wish = model.most_informative(scenes)
+        belief = {**belief_json(model), "wish": wish_json(model, wish), "seconds": time.perf_counter() - start}
     except (ValueError, ArithmeticError, IndexError, np.linalg.LinAlgError) as error:
         _log.exception("the demonstrations cannot be learned from")
-        return Understood(history.shown, None, {"failed": f"This cannot be learned from: {error}"}, *scene)
-    return Understood(history.shown, model, belief, *scene)
+        return Understood(history.shown, None, {"failed": f"This cannot be learned from: {error}"}, scenes[0], hand)
+    return Understood(history.shown, model, belief, scenes[wish.scene], hand)
 
 
 def prepare_policies(model: ImitationModel) -> None:

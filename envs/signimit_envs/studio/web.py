@@ -23,8 +23,9 @@ except ImportError:
     raise MissingDependencyError("fastapi", "studio", "The studio") from None
 
 from signimit_envs.scene import OBJECT_NAMES, TABLE, WORKSPACE
-from signimit_envs.studio import ask_routes, teach_routes
+from signimit_envs.studio import ask_routes, keep_routes, look_routes, teach_routes
 from signimit_envs.studio.camera import picture_mapping
+from signimit_envs.studio.exchange import FORMATS
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.messages import complaint
 from signimit_envs.studio.open_session import StaleRevisionError
@@ -62,7 +63,7 @@ def create_app(studio: Studio) -> FastAPI:
     app = FastAPI(title="signimit studio", version=__version__, docs_url=None, redoc_url=None, lifespan=living)
     _tell_errors(app)
     app.state.studio = studio
-    for part in (teach_routes, ask_routes):
+    for part in (teach_routes, ask_routes, look_routes, keep_routes):
         app.include_router(part.routes)
 
     @app.get("/api/studio", tags=["studio"])
@@ -89,7 +90,7 @@ def _facts() -> dict[str, Any]:
         "colours": list(OBJECT_COLOURS),
         "languages": [*LANGUAGES, FREE],
         "limits": {name: getattr(LIMITS, name) for name in LIMITS.__dataclass_fields__},
-        "exports": [],
+        "exports": list(FORMATS),
     }
 
 
@@ -127,7 +128,7 @@ def _tell_errors(app: FastAPI) -> None:
 
     @app.exception_handler(StaleRevisionError)
     async def stale(request: Request, error: StaleRevisionError) -> JSONResponse:
-        return refused(409, "Another tab changed this session; look again.", revision=error.expected)
+        return refused(409, str(error), revision=error.latest)
 
     @app.exception_handler(RenderingError)
     async def blind(request: Request, error: RenderingError) -> JSONResponse:
