@@ -183,14 +183,20 @@ def _somebody(library: StrokeLibrary, labels: Sequence[str], rng: np.random.Gene
     return library.select(writer=able[int(rng.integers(len(able)))])
 
 
-def wavering(library: StrokeLibrary, rng: np.random.Generator) -> StrokeLibrary:
-    """Add a slow random waver to every stroke, another one each time: three waves in each direction."""
+def wavering(library: StrokeLibrary, rng: np.random.Generator, noise: float = NOISE) -> StrokeLibrary:
+    """Add a slow random waver to every stroke, another one each time: three waves in each direction.
+
+    Args:
+        library: The strokes.
+        rng: Decides the waves.
+        noise: Root mean square of the waver, in half sizes of a stroke.
+    """
     strokes = []
     for stroke in library.strokes:
         half = np.ptp(stroke.points, axis=0).max() / 2
         share = np.linspace(0, 1, len(stroke.points))[:, None, None]
         waves = np.sin(2 * np.pi * (rng.uniform(0.5, 4, (3, 2)) * share + rng.random((3, 2)))).sum(axis=1)
-        strokes.append(Stroke(stroke.points + NOISE * half * waves * np.sqrt(2 / 3), stroke.times))
+        strokes.append(Stroke(stroke.points + noise * half * waves * np.sqrt(2 / 3), stroke.times))
     return StrokeLibrary(tuple(strokes), library.labels, library.writers, library.source)
 
 
