@@ -6,7 +6,7 @@ import importlib
 from functools import cache
 from types import ModuleType
 
-WORTHWHILE = 10**9  # pairs of points; numpy takes a second for so many, as long as it takes to import numba
+WORTHWHILE = 1.0  # s; numba is imported and the kernels are read from disk in about half of it
 
 
 @cache
@@ -18,9 +18,11 @@ def find_kernels() -> ModuleType | None:
         return None
 
 
-def kernels_for(pairs: int) -> ModuleType | None:
-    """Return the kernels if there are any and so many pairs of points are worth importing them.
+def kernels_for(seconds: float) -> ModuleType | None:
+    """Return the kernels if there are any and numpy would take so long that importing them is worthwhile.
 
-    Only the size decides, not what was called before: the same call gives the same bytes.
+    Args:
+        seconds: A rough estimate from the size of the task. Only the size decides, not what was called before or how
+            busy the machine is: the same call gives the same bytes.
     """
-    return find_kernels() if pairs >= WORTHWHILE else None
+    return find_kernels() if seconds >= WORTHWHILE else None

@@ -14,6 +14,7 @@ from signimit.validation import finite_array, item_list, moving_points
 
 DISTANCE_FLOOR = 1e-6  # rad²; keeps γ finite where two paths agree to the last bit
 _BLOCK = 2**16  # numbers of a distance block: small enough for the second-level cache
+_SECONDS = 1e-9  # that numpy takes for a pair of points
 
 
 class DirectedPoints(NamedTuple):
@@ -71,7 +72,7 @@ def policy_distances(paths: Sequence[ArrayLike], objects: ArrayLike) -> NDArray[
     if not places.size:
         raise InvalidInputError("objects", "at least one in each demonstration", "none")
     pairs = (places.shape[1] * sum(len(d.angles) for d in directed)) ** 2
-    kernels = kernels_for(pairs)
+    kernels = kernels_for(_SECONDS * pairs)
     if kernels is None:
         one_way = _one_way_distances(directed, places)
     else:

@@ -22,6 +22,7 @@ _DIRECTION = 1.5  # weight of a unit direction against one half size of place
 _PACE = 1.0  # weight of the logarithm of relative speed
 _PAUSE = 0.15  # relative speed below which pace is not told apart
 _BLOCK = 2**18  # numbers of a block of distances
+_SECONDS = 1e-9  # that numpy takes for a pair of samples
 
 
 class Trace(NamedTuple):
@@ -80,12 +81,11 @@ def trace_distances(traces: Sequence[Trace], objects: NDArray[np.float64]) -> ND
         Mean distance to the best match, both ways averaged, shape (N, N, O, O), no unit;
         ``[t, k, i, j] == [k, t, j, i]``.
     """
+    kernels = kernels_for(_SECONDS * (len(traces) * objects.shape[1] * SAMPLES) ** 2)
+    if kernels is not None:
+        return np.asarray(kernels.drawing_distances(*_centred(traces, objects)))
     framed = _framed(traces, objects)
-    kernels = kernels_for((framed.shape[0] * framed.shape[1] * SAMPLES) ** 2)
-    if kernels is None:
-        one_way = np.stack([cross_distances(framed[t], framed) for t in range(len(traces))])
-    else:
-        one_way = kernels.drawing_distances(framed)
+    one_way = np.stack([cross_distances(drawing, framed) for drawing in framed])
     return np.asarray((one_way + one_way.transpose(1, 0, 3, 2)) / 2)
 
 
@@ -109,6 +109,14 @@ def _framed(traces: Sequence[Trace], objects: NDArray[np.float64]) -> NDArray[np
     return np.concatenate([local, spread], axis=-1).astype(np.float32)
 
 
+def _centred(traces: Sequence[Trace], objects: NDArray[np.float64]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Features of each drawing from its own centre, shape (N, 64, 5), and its centre from each object, (N, O, 2)."""
+    centres = np.stack([t.centre for t in traces])
+    sizes = np.array([t.half_size for t in traces])[:, None, None]
+    offsets = (centres[:, None] - objects) / sizes
+    return _framed(traces, centres[:, None])[:, 0], offsets.astype(np.float32)
+
+
 def cross_distances(query: NDArray[np.float32], targets: NDArray[np.float32]) -> NDArray[np.float64]:
     """Mean distance from each point of a drawing to its best match in others.
 
@@ -122,14 +130,17 @@ def cross_distances(query: NDArray[np.float32], targets: NDArray[np.float32]) ->
     frames, samples, features = query.shape
     asked = query.reshape(-1, features)
     asked_squares = (asked * asked).sum(axis=1)
+    # |a - b|² = |a|² - 2 ab + |b|², of which one matrix product makes all but |a|². The best match is a minimum over
+    # the target's samples, kept off the last axis where numpy would reduce it one short row at a time.
+    factors = np.column_stack([-2.0 * asked, np.ones_like(asked_squares)]).T.copy()
     flat = targets.reshape(-1, samples, features)
     out = np.empty((len(flat), frames))
     step = max(1, _BLOCK // (samples * len(asked)))
     for start in range(0, len(flat), step):
         block = flat[start : start + step]
-        # |a - b|² = |a|² - 2 ab + |b|²; the best match is a minimum over the target's samples, kept off the last axis
-        # where numpy would reduce it one short row at a time.
-        gaps = block @ (-2.0 * asked.T) + (block * block).sum(axis=2)[:, :, None]
-        best = np.sqrt(np.maximum(gaps.min(axis=1) + asked_squares, 0.0))
+        squares = (block * block).sum(axis=2, keepdims=True)
+        gaps = np.concatenate([block, squares], axis=2).reshape(-1, features + 1) @ factors
+        best = gaps.reshape(len(block), samples, -1).min(axis=1) + asked_squares
+        best = np.sqrt(np.maximum(best, 0.0))
         out[start : start + step] = best.reshape(len(block), frames, samples).mean(axis=2)
     return np.asarray(out.reshape(targets.shape[0], targets.shape[1], frames).transpose(0, 2, 1))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.learners.places import common_place_evidence
-from signimit.learners.vocabulary import paired_distances, sign_features
+from signimit.learners.vocabulary import cross_sign_distances, sign_features
 from signimit.traces import distances_to, make_trace, trace_distances
 from signimit.validation import finite_array
 
@@ -41,6 +41,6 @@ def extended_distances(
     drawings[-1, -1] = trace_distances(traces[-1:], objects[-1:])[0, 0]
     for word in range(words):
         features = sign_features([d.signs[word] for d in demonstrations])
-        new = features.take(np.full(count, count, dtype=np.intp))
-        signs[word, -1, :-1] = signs[word, :-1, -1] = paired_distances(new, features.take(np.arange(count)))
+        new, old = features.take(slice(count, None)), features.take(slice(count))
+        signs[word, -1, :-1] = signs[word, :-1, -1] = cross_sign_distances(new, old)[0]
     return drawings, signs, common_place_evidence(np.stack([t.centre for t in traces]), objects)

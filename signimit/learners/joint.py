@@ -11,6 +11,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from scipy.special import softmax
 from signimit.demonstrations import DemonstrationSet
 from signimit.grouping import canonical_labels
 from signimit.inference import WordOrder
-from signimit.learners.evidence import DRAWINGS, SIGNS
+from signimit.learners.evidence import DRAWINGS, SIGNS, DistanceModel
 from signimit.learners.incremental import extended_distances
 from signimit.learners.places import common_place_evidence
 from signimit.learners.search import (
@@ -107,10 +108,11 @@ def look(demonstrations: DemonstrationSet) -> Seen:
 
 
 def _conclude(seen: Seen) -> Understanding:
+    weighing = Weighing(seen)
     orders = _word_orders(len(seen.signs))
-    best = [max(_hypotheses(seen, order), key=lambda h: h.score) for order in orders]
+    best = [max(_hypotheses(weighing, order), key=lambda h: h.score) for order in orders]
     chosen = max(best, key=lambda h: h.score)
-    return _understanding(seen, chosen, {h.order: h.score for h in best})
+    return _understanding(weighing, chosen, {h.order: h.score for h in best})
 
 
 def _word_orders(words: int) -> list[WordOrder]:
@@ -119,45 +121,59 @@ def _word_orders(words: int) -> list[WordOrder]:
     return [WordOrder(f, m) for f, m in itertools.permutations(range(words), 2)]
 
 
-def weigh(seen: Seen, order: WordOrder, scale: Scale) -> PairEvidence:
-    """Turn distances into evidence under a word order and the session's scales."""
-    nobody = np.eye(len(seen.place), dtype=bool)
-    drawing = DRAWINGS.log_ratios(seen.drawings, scale.drawings)
-    drawing[nobody] = 0.0
-    movement, focus = (SIGNS.log_ratios(seen.signs[w], scale.signs) for w in (order.movement, order.focus))
-    movement[nobody] = focus[nobody] = 0.0
-    return PairEvidence(drawing, movement, focus, seen.place)
+class Weighing:
+    """Turns distances into evidence, and remembers it: most hypotheses come to the same scales."""
+
+    def __init__(self, seen: Seen) -> None:
+        """Remember nothing yet."""
+        self.seen = seen
+        self._nobody = np.eye(len(seen.place), dtype=bool)
+        self._drawings = lru_cache(len(_TYPICAL) + 1)(partial(self._ratios, DRAWINGS, seen.drawings))
+        self._words = [lru_cache(2)(partial(self._ratios, SIGNS, word)) for word in seen.signs]
+
+    def evidence(self, order: WordOrder, scale: Scale) -> PairEvidence:
+        """Weigh all distances under a word order and the session's scales."""
+        movement, focus = (self.word(w, scale) for w in (order.movement, order.focus))
+        return PairEvidence(self._drawings(scale.drawings), movement, focus, self.seen.place)
+
+    def word(self, number: int, scale: Scale) -> NDArray[np.float64]:
+        """Weigh the distances of the signs at one place of the utterance, shape (N, N)."""
+        return self._words[number](scale.signs)
+
+    def _ratios(self, model: DistanceModel, distances: NDArray[np.float64], typical: float) -> NDArray[np.float64]:
+        ratios = model.log_ratios(distances, typical)
+        ratios[self._nobody] = 0.0
+        return ratios
 
 
-def _hypotheses(seen: Seen, order: WordOrder) -> list[Hypothesis]:
+def _hypotheses(weighing: Weighing, order: WordOrder) -> list[Hypothesis]:
     """Explain the demonstrations under one word order from several starts."""
     found = []
     for typical in _TYPICAL:
         scale = Scale(typical, SIGNS.equal_mean)
-        for labels, focus in first_guesses(weigh(seen, order, scale)):
-            found.append(_settle(seen, order, scale, (labels, focus)))
+        for labels, focus in first_guesses(weighing.evidence(order, scale)):
+            found.append(_settle(weighing, order, scale, (labels, focus)))
     return found
 
 
 def _settle(
-    seen: Seen, order: WordOrder, scale: Scale, guess: tuple[NDArray[np.int64], NDArray[np.int64]]
+    weighing: Weighing, order: WordOrder, scale: Scale, guess: tuple[NDArray[np.int64], NDArray[np.int64]]
 ) -> Hypothesis:
     """Alternate between the explanation and the scales it implies."""
-    explanation = improve_explanation(weigh(seen, order, scale), *guess)
+    explanation = improve_explanation(weighing.evidence(order, scale), *guess)
     for _ in range(_ROUNDS):
-        scale = _implied_scale(seen, order, explanation)
-        explanation = improve_explanation(weigh(seen, order, scale), explanation.labels, explanation.focus)
+        scale = _implied_scale(weighing.seen, order, explanation)
+        explanation = improve_explanation(weighing.evidence(order, scale), explanation.labels, explanation.focus)
     prior = DRAWINGS.log_prior(scale.drawings) + SIGNS.log_prior(scale.signs)
-    score = explanation.score + prior + _idle_words_score(seen, order, scale)
+    score = explanation.score + prior + _idle_words_score(weighing, order, scale)
     return Hypothesis(order, explanation, scale, score)
 
 
-def _idle_words_score(seen: Seen, order: WordOrder, scale: Scale) -> float:
+def _idle_words_score(weighing: Weighing, order: WordOrder, scale: Scale) -> float:
     """Score the best partition of each word that an order calls meaningless: every order has to explain all words."""
     total = 0.0
-    for word in set(range(len(seen.signs))) - set(order):
-        alike = SIGNS.log_ratios(seen.signs[word], scale.signs)
-        np.fill_diagonal(alike, 0.0)
+    for word in set(range(len(weighing.seen.signs))) - set(order):
+        alike = weighing.word(word, scale)
         labels = merge_groups(alike)
         total += alike[labels[:, None] == labels[None]].sum() / 2 - MOVEMENT_PRICE * (labels.max() + 1)
     return float(total)
@@ -172,10 +188,11 @@ def _implied_scale(seen: Seen, order: WordOrder, explanation: Explanation) -> Sc
     return Scale(DRAWINGS.posterior_mean(drawings, len(labels)), SIGNS.posterior_mean(signs, len(labels)))
 
 
-def _understanding(seen: Seen, chosen: Hypothesis, orders: dict[WordOrder, float]) -> Understanding:
+def _understanding(weighing: Weighing, chosen: Hypothesis, orders: dict[WordOrder, float]) -> Understanding:
+    seen = weighing.seen
     labels = canonical_labels(chosen.explanation.labels)
     focus = chosen.explanation.focus
-    scores = conditional_scores(weigh(seen, chosen.order, chosen.scale), labels, focus) / _TEMPERATURE
+    scores = conditional_scores(weighing.evidence(chosen.order, chosen.scale), labels, focus) / _TEMPERATURE
     belief = softmax(scores.reshape(len(labels), -1), axis=1).reshape(scores.shape)
     words = len(seen.signs)
     order_evidence = np.full((words, words), -np.inf)

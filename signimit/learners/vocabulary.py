@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import logsumexp, softmax
 
+from signimit.acceleration import kernels_for
 from signimit.signs import resampled_path, warped_totals
 from signimit.understanding import Reading, Understanding
 from signimit.validation import moving_points
@@ -24,7 +25,8 @@ _DIRECTION = 2.0  # weight of a unit direction in a course, against the sign's r
 _SLOPE = 0.7  # weight of the slope in a picture
 _NARROWEST = 0.2  # share of its size below which a sign's width or height counts as this much
 _SHARPNESS = 10.0  # a meaning weighs as the mean of distance ** -10 over its signs: near ones count, far ones hardly
-_PAIRS = 2**10  # pairs that are compared at once
+_PAIRS = 2**9  # pairs that are compared at once
+_SECONDS = 1e-5  # that numpy takes for a sign beside another
 
 
 class SignFeatures(NamedTuple):
@@ -38,7 +40,7 @@ class SignFeatures(NamedTuple):
     courses: NDArray[np.float64]
     pictures: NDArray[np.float64]
 
-    def take(self, which: NDArray[np.intp]) -> Self:
+    def take(self, which: slice) -> Self:
         """Return the features of some of the signs."""
         return type(self)(self.courses[which], self.pictures[which])
 
@@ -78,28 +80,39 @@ def _unit(angles: NDArray[np.float64]) -> NDArray[np.float64]:
 def sign_distances(features: SignFeatures) -> NDArray[np.float64]:
     """Compute the distance of all pairs of signs, shape (N, N), no unit."""
     count = len(features.courses)
-    first, second = np.triu_indices(count, 1)
-    out = np.zeros((count, count))
-    out[first, second] = paired_distances(features.take(first), features.take(second))
-    return out + out.T
+    kernels = kernels_for(_SECONDS * count**2)
+    if kernels is not None:
+        return np.asarray(kernels.sign_distances(*(part.astype(np.float32) for part in features)))
+    table = np.zeros((count, count))
+    rows = max(1, _PAIRS // count)
+    for start in range(0, count, rows):
+        some, rest = features.take(slice(start, start + rows)), features.take(slice(start, None))
+        table[start : start + rows, start:] = cross_sign_distances(some, rest)
+    table = np.triu(table, 1)
+    return table + table.T
 
 
-def paired_distances(first: SignFeatures, second: SignFeatures) -> NDArray[np.float64]:
-    """Compute the distance of each sign to the one beside it, shape (B,), no unit."""
-    out = np.empty(len(first.courses))
-    for start in range(0, len(out), _PAIRS):
-        part = slice(start, start + _PAIRS)
-        course = warped_totals(_costs(first.courses[part], second.courses[part]).transpose(1, 2, 0).copy()) / _SAMPLES
-        gaps = _costs(first.pictures[part], second.pictures[part])
-        picture = (gaps.min(axis=2).mean(axis=1) + gaps.min(axis=1).mean(axis=1)) / 2
-        out[part] = np.sqrt(course * picture)
+def cross_sign_distances(first: SignFeatures, second: SignFeatures) -> NDArray[np.float64]:
+    """Compute the distance of each of A signs to each of B others, shape (A, B), no unit."""
+    out = np.empty((len(first.courses), len(second.courses)))
+    columns = max(1, _PAIRS // len(out))
+    for start in range(0, out.shape[1], columns):
+        part = second.take(slice(start, start + columns))
+        course = warped_totals(np.sqrt(_squares(first.courses, part.courses))) / _SAMPLES
+        gaps = _squares(first.pictures, part.pictures)
+        there, back = (np.sqrt(gaps.min(axis=axis)).mean(axis=0) for axis in (1, 0))
+        out[:, start : start + columns] = np.sqrt(course * (there + back) / 2).reshape(len(out), -1)
     return out
 
 
-def _costs(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Distances between all samples of pairs of signs, shape (B, 32, 32)."""
-    squares = (a * a).sum(-1)[:, :, None] - 2 * a @ b.transpose(0, 2, 1) + (b * b).sum(-1)[:, None, :]
-    return np.asarray(np.sqrt(np.maximum(squares, 0.0)))
+def _squares(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Squared distances between all samples of signs, (A, 32, 4) and (B, 32, 4), shape (32, 32, A B)."""
+    one_a, one_b = np.ones((*a.shape[:2], 1)), np.ones((*b.shape[:2], 1))
+    left = np.concatenate([-2 * a, one_a, (a * a).sum(-1, keepdims=True)], axis=2)
+    right = np.concatenate([b, (b * b).sum(-1, keepdims=True), one_b], axis=2)
+    squares = left.reshape(-1, left.shape[2]) @ right.transpose(2, 1, 0).reshape(left.shape[2], -1)
+    by_sample = squares.reshape(len(a), _SAMPLES, _SAMPLES, len(b)).transpose(1, 2, 0, 3)
+    return np.asarray(np.maximum(by_sample, 0.0).reshape(_SAMPLES, _SAMPLES, -1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,8 +137,7 @@ class VocabularyReader:
 
     def _weigh(self, sign: ArrayLike, word: int, meanings: NDArray[np.int64], count: int) -> NDArray[np.float64]:
         known = self.features[word]
-        heard = sign_features([sign]).take(np.zeros(len(known.courses), dtype=np.intp))
-        nearness = -_SHARPNESS * np.log(paired_distances(heard, known) + 1e-6)
+        nearness = -_SHARPNESS * np.log(cross_sign_distances(sign_features([sign]), known)[0] + 1e-6)
         scores = np.full(count, -np.inf)
         for meaning in np.unique(meanings):
             members = nearness[meanings == meaning]

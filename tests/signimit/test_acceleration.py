@@ -8,8 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit import acceleration, group_movements, policy_distances
+from signimit import acceleration, group_movements, learn, policy_distances
+from signimit.learners.vocabulary import sign_distances, sign_features
 from signimit.similarity import maximum_similarities
+from signimit.study.scaling import compose_many
 from signimit.traces import Trace, trace_distances
 
 Array = NDArray[np.float64]
@@ -26,10 +28,15 @@ def loops(count: int, seed: int) -> tuple[list[Array], Array]:
     return paths, rng.uniform(-0.2, 0.2, (count, 3, 2))
 
 
-def traces(count: int, seed: int) -> tuple[list[Trace], Array]:
+def traces(count: int, seed: int, frames: int) -> tuple[list[Trace], Array]:
     rng = np.random.default_rng(seed)
-    made = [Trace(rng.normal(size=(64, 2)), rng.normal(size=(64, 3)), 1.0 + t, np.zeros(2)) for t in range(count)]
-    return made, rng.normal(size=(count, 3, 2))
+    places, manner, centres = (
+        rng.normal(size=(count, 64, 2)),
+        rng.normal(size=(count, 64, 3)),
+        rng.normal(size=(count, 2)),
+    )
+    made = [Trace(places[t], manner[t], 1.0 + t, centres[t]) for t in range(count)]
+    return made, rng.normal(size=(count, frames, 2))
 
 
 @pytest.fixture
@@ -51,15 +58,44 @@ def test_compiled_policy_distances_are_the_plain_ones(monkeypatch: pytest.Monkey
     np.testing.assert_array_equal(ours, theirs)
 
 
-def test_compiled_drawing_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("count", "frames"), [(1, 1), (2, 4), (7, 3)])
+def test_compiled_drawing_distances_are_the_plain_ones(
+    monkeypatch: pytest.MonkeyPatch, count: int, frames: int
+) -> None:
     pytest.importorskip("numba")
-    drawings, objects = traces(6, 0)
+    drawings, objects = traces(count, 0, frames)
     plain = trace_distances(drawings, objects)
     monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
     compiled = trace_distances(drawings, objects)
-    others = ~np.eye(6, dtype=bool)
+    others = ~np.eye(count, dtype=bool)
     np.testing.assert_allclose(compiled[others], plain[others], rtol=1e-4)
     np.testing.assert_allclose(compiled, plain, atol=2e-3)
+    np.testing.assert_array_equal(compiled, compiled.transpose(1, 0, 3, 2))
+
+
+@pytest.mark.parametrize("count", [1, 2, 16, 17, 35])
+def test_compiled_sign_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
+    pytest.importorskip("numba")
+    rng = np.random.default_rng(count)
+    features = sign_features([rng.normal(size=(9, 2)).cumsum(axis=0) for _ in range(count)])
+    plain = sign_distances(features)
+    monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
+    compiled = sign_distances(features)
+    np.testing.assert_allclose(compiled, plain, rtol=1e-4)
+    np.testing.assert_array_equal(compiled, compiled.T)
+
+
+def test_compiled_and_plain_distances_are_understood_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    demonstrations = compose_many(18, 4)
+    plain = learn(demonstrations)
+    monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
+    compiled = learn(demonstrations)
+    np.testing.assert_array_equal(compiled.labels, plain.labels)
+    np.testing.assert_array_equal(compiled.focus, plain.focus)
+    assert compiled.word_order == plain.word_order
+    for name, tolerance in (("focus_probability", 1e-3), ("sign_distances", 1e-4)):
+        np.testing.assert_allclose(compiled.diagnostics[name], plain.diagnostics[name], atol=tolerance)
 
 
 @pytest.mark.usefixtures("always")
@@ -79,7 +115,8 @@ def test_of_two_points_at_one_place_the_first_is_the_nearest() -> None:
 
 def test_without_numba_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
-    monkeypatch.delitem(sys.modules, "signimit.kernels", raising=False)
+    for name in [name for name in sys.modules if name.startswith("signimit.kernels")]:
+        monkeypatch.delitem(sys.modules, name)
     acceleration.find_kernels.cache_clear()
     assert acceleration.find_kernels() is None
     acceleration.find_kernels.cache_clear()
@@ -87,7 +124,7 @@ def test_without_numba_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_only_the_size_decides_and_small_sets_stay_with_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(acceleration, "find_kernels", lambda: importlib)
-    assert acceleration.kernels_for(acceleration.WORTHWHILE - 1) is None
+    assert acceleration.kernels_for(0.99 * acceleration.WORTHWHILE) is None
     assert acceleration.kernels_for(acceleration.WORTHWHILE) is importlib
 
 
