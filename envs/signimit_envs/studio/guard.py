@@ -151,11 +151,10 @@ class _Bounded:
             if not self._too_large:
                 _log.exception("a request failed")
             if not self._started:
-                status = 413 if self._too_large else 500
-                sentence = (
-                    f"Too large: at most {self._most} bytes." if self._too_large else "The studio failed; see its log."
+                large = 413, f"Too large: at most {self._most} bytes."
+                await _refuse(
+                    scope, send, *(large if self._too_large else (500, "The studio failed; its log says how."))
                 )
-                await _refuse(scope, send, status, sentence)
 
 
 def _most_bytes(path: str) -> int:

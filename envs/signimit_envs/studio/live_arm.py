@@ -177,8 +177,9 @@ class LiveArm:
             velocity = self._move(self._state.hand - self._objects[self._errand.focus])
         action = velocity / max(env.max_hand_speed, float(np.abs(velocity).max()))
         observation, _, failed, _, _ = env.step(action)
-        if failed:
+        if failed:  # it was put back as it was when the table was set
             self._push = None
+            self._place_objects()
         self._steps += 1
         if self._steps % TRAIL_STRIDE == 0 and self._errand is not None:
             self._trail.append((round(float(observation["hand"][0]), 4), round(float(observation["hand"][1]), 4)))
@@ -229,6 +230,8 @@ class LiveArm:
         self._look(observation)
 
     def _begin(self, errand: Errand) -> None:
+        if errand.session != self._session:  # somebody else has the table by now
+            return
         self._end()
         self._trail.clear()
         self._errand, self._told = errand, 0
@@ -244,7 +247,10 @@ class LiveArm:
         moved = self._objects.copy()
         moved[number] = np.clip(place, -WORKSPACE, WORKSPACE)
         self._objects = moved
-        self._env.data.mocap_pos[self._bodies, :2] = moved
+        self._place_objects()
+
+    def _place_objects(self) -> None:
+        self._env.data.mocap_pos[self._bodies, :2] = self._objects
 
     def _shove(self, velocity: Array) -> None:
         self._push = Push(velocity)

@@ -6,7 +6,6 @@ import asyncio
 import functools
 from collections.abc import Callable
 from concurrent.futures import Executor
-from typing import TypeVar
 
 from signimit.exceptions import InvalidInputError, SignimitError
 from signimit.learning import ImitationModel
@@ -14,9 +13,7 @@ from signimit_envs.studio.events import Asked, Created, Deleted, Demonstrated, E
 from signimit_envs.studio.history import History, after
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.shelf import Shelf
-from signimit_envs.studio.understanding import Understood, prepare_policies, understand
-
-Result = TypeVar("Result")
+from signimit_envs.studio.understanding import Understood, understand
 
 
 class StaleRevisionError(SignimitError, ValueError):
@@ -74,11 +71,13 @@ class OpenSession:
     async def prepare(self) -> None:
         """Understand the session as it was read."""
         async with self._lock:
-            if self._understood is None:
-                await self._understand()
+            if self._understood is not None:
+                return
+            self._understood = await self._understand(self.history)
+        self._learner.submit(self._prepare_policies, self._understood)
 
     async def edit(self, revision: int, event: Event) -> None:
-        """Change the demonstrations or the title.
+        """Change the demonstrations or the title; goes on to the end even if whoever asked for it goes away.
 
         Args:
             revision: What the page last saw.
@@ -88,42 +87,52 @@ class OpenSession:
             StaleRevisionError: If somebody else was faster.
             InvalidInputError: If the change cannot be.
         """
-        async with self._lock:
-            if revision != self.history.revision:
-                raise StaleRevisionError(self.history.revision, revision)
-            shown = self.history.shown
-            await self._note(event)
-            if shown is not self.history.shown:
-                await self._understand()
+        await asyncio.shield(self._edit(revision, event))
 
     async def note(self, make: Callable[[History], Event]) -> None:
-        """Add what is no edit: an answer or a verdict.
+        """Add what is no edit: an answer or a verdict; goes on to the end even if whoever asked for it goes away.
 
         Args:
             make: Makes the event from the session as it is when its turn has come.
         """
-        async with self._lock:
-            await self._note(make(self.history))
+        await asyncio.shield(self._note(make))
 
-    async def _note(self, event: Event) -> None:
+    async def _edit(self, revision: int, event: Event) -> None:
+        async with self._lock:
+            if revision != self.history.revision:
+                raise StaleRevisionError(self.history.revision, revision)
+            following = await self._written(event)
+            understood = self._understood
+            if following.shown is not self.history.shown:
+                understood = await self._understand(following)
+            self.history, self._understood = following, understood  # both at once: nobody sees one without the other
+        if understood is not None:
+            self._learner.submit(self._prepare_policies, understood)
+
+    async def _note(self, make: Callable[[History], Event]) -> None:
+        async with self._lock:
+            self.history = await self._written(make(self.history))
+
+    async def _written(self, event: Event) -> History:
+        """Put an event on the disk, and return the session after it."""
         following = after(self.history, event)
         _check_room(following, event)
         await asyncio.to_thread(self._shelf.append, self.name, event)
-        self.history = following
+        return following
 
-    async def _understand(self) -> None:
-        history, before = self.history, self._understood
-        self._understood = await self._in_turn(functools.partial(understand, history, before))
-        model = self._understood.model
-        if model is not None:
-            self._learner.submit(self._prepare_policies, model)
-
-    def _prepare_policies(self, model: ImitationModel) -> None:
-        if self._understood is not None and self._understood.model is model:
-            prepare_policies(model)
-
-    async def _in_turn(self, work: Callable[[], Result]) -> Result:
+    async def _understand(self, history: History) -> Understood:
+        work = functools.partial(understand, history, self._understood)
         return await asyncio.get_running_loop().run_in_executor(self._learner, work)
+
+    def _prepare_policies(self, understood: Understood) -> None:
+        """Make all policies before anybody has to wait for one; whoever changes the session again comes first."""
+        model = understood.model
+        if model is None:
+            return
+        for movement in range(len(model.movements)):
+            if self._understood is not understood or self._lock.locked():
+                return
+            model.policy(movement)
 
 
 def _check_room(history: History, event: Event) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import secrets
 import socket
 from collections.abc import Callable
@@ -49,6 +50,7 @@ def serve_studio(plan: StudioPlan, announce: Callable[[str], object]) -> None:
         import websockets  # noqa: F401 -- uvicorn would go on without it, and without a socket
     except ImportError as error:
         raise MissingDependencyError(error.name or "uvicorn", "studio", "The studio") from None
+    from signimit_envs.studio.demo import play_session
     from signimit_envs.studio.guard import Guard
     from signimit_envs.studio.limits import LIMITS
     from signimit_envs.studio.studio import Studio
@@ -57,7 +59,8 @@ def serve_studio(plan: StudioPlan, announce: Callable[[str], object]) -> None:
     with _listen(plan.host, plan.port) as listener:
         port, token = listener.getsockname()[1], secrets.token_urlsafe(24)
         hosts = frozenset(f"{name}:{port}" for name in (LOCAL, "localhost", plan.host))
-        app = create_app(Studio(plan.folder, plan.seed))
+        play = functools.partial(play_session, seed=plan.seed) if plan.demo else None
+        app = create_app(Studio(plan.folder, plan.seed), play)
         guard = Guard(app, token, hosts, any_address=plan.host != LOCAL)
         announce(f"http://{LOCAL if plan.host in _EVERYWHERE else plan.host}:{port}/{token}/")
         config = uvicorn.Config(

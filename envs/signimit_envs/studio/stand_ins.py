@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.composition import compose_loops, compose_path
+from signimit.composition import compose_loops, compose_path, movement_templates
 from signimit.decks import StrokeDeck
-from signimit.languages import Language, Request
+from signimit.languages import Request
 from signimit.scenes import sample_times
 from signimit.signs import normalised_sign
 from signimit.strokes import Stroke
@@ -44,14 +44,16 @@ def examples(language: str, seed: int, request: Request) -> tuple[Sequence[NDArr
     return signs, normalised_sign(cast.movements.select(spoken.movements[request.movement])[0].points)
 
 
+def templates(language: str, seed: int) -> tuple[tuple[NDArray[np.float64], ...], ...]:
+    """Return how the session's built-in demonstrator draws each movement, to judge performances by."""
+    rng = np.random.default_rng([seed, 6])
+    return movement_templates(LANGUAGES[language], _cast(language, seed).movements, rng)
+
+
 @functools.lru_cache(maxsize=8)
 def _cast(language: str, seed: int) -> Cast:
     """Meet the people of a session: always the same for the same seed."""
-    return cast_people(_spoken(language), np.random.default_rng([seed, 3]))
-
-
-def _spoken(language: str) -> Language:
-    return LANGUAGES[language]
+    return cast_people(LANGUAGES[language], np.random.default_rng([seed, 3]))
 
 
 def _generator(seed: int, role: int, request: Request, attempt: int) -> np.random.Generator:

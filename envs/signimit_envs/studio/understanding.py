@@ -55,16 +55,10 @@ def understand(history: History, before: Understood | None) -> Understood:
         model = _learned(history.shown, before)
         wish = model.most_informative(scenes)
         belief = {**belief_json(model), "wish": wish_json(model, wish), "seconds": time.perf_counter() - start}
-    except (ValueError, ArithmeticError, IndexError, np.linalg.LinAlgError) as error:
+    except Exception as error:  # what was drawn must stay, and can be undone, whatever fails here
         _log.exception("the demonstrations cannot be learned from")
         return Understood(history.shown, None, {"failed": f"This cannot be learned from: {error}"}, scenes[0], hand)
     return Understood(history.shown, model, belief, scenes[wish.scene], hand)
-
-
-def prepare_policies(model: ImitationModel) -> None:
-    """Make all policies now, so that nobody has to wait for them when the arm is asked for something."""
-    for movement in range(len(model.movements)):
-        model.policy(movement)
 
 
 def _learned(shown: Demonstrations, before: Understood | None) -> ImitationModel:

@@ -58,6 +58,7 @@ class Viewers:
         """Start with nobody."""
         self._all: set[Viewer] = set()
         self._lock = threading.Lock()
+        self._standing: str | None = None
 
     def __len__(self) -> int:
         """Return how many there are."""
@@ -72,6 +73,8 @@ class Viewers:
         """Take a page in."""
         with self._lock:
             self._all.add(viewer)
+        if self._standing is not None:
+            viewer.put_news(self._standing)
 
     def remove(self, viewer: Viewer) -> None:
         """Let a page go; may be called again."""
@@ -84,9 +87,11 @@ class Viewers:
             if viewer.watching:
                 viewer.put_frame(frame)
 
-    def tell(self, news: dict[str, Any]) -> None:
-        """Send all pages a message."""
+    def tell(self, news: dict[str, Any], standing: bool = False) -> None:
+        """Send all pages a message; a standing one is also the first that new pages get."""
         text = json.dumps(news)
+        if standing:
+            self._standing = text
         for viewer in self._listed():
             viewer.put_news(text)
 

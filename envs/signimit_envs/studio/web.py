@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import logging
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
 from importlib import resources
 from typing import Any
@@ -41,23 +42,30 @@ MEDIA_TYPES = {
     ".ico": "image/x-icon",
     ".webmanifest": "application/manifest+json",
 }
+Play = Callable[[Studio], Coroutine[Any, Any, None]]
 _PATIENCE = 60.0  # s, for OpenGL to be found
 _log = logging.getLogger(__name__)
 
 
-def create_app(studio: Studio) -> FastAPI:
+def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
     """Make the application, without a guard; it starts the studio and closes it.
 
     Args:
         studio: What it serves.
+        play: Plays on the page by itself, once the studio is open; nothing if left out.
     """
 
     @asynccontextmanager
     async def living(app: FastAPI) -> AsyncIterator[None]:
         studio.start()
+        playing = None if play is None else asyncio.create_task(_played(play, studio))
         try:
             yield
         finally:
+            if playing is not None:
+                playing.cancel()
+                with contextlib.suppress(asyncio.CancelledError):
+                    await playing
             await asyncio.to_thread(studio.close)
 
     app = FastAPI(title="signimit studio", version=__version__, docs_url=None, redoc_url=None, lifespan=living)
@@ -78,6 +86,13 @@ def create_app(studio: Studio) -> FastAPI:
 
     _serve_page(app)
     return app
+
+
+async def _played(play: Play, studio: Studio) -> None:
+    try:
+        await play(studio)
+    except (SignimitError, OSError):  # somebody changed or removed the session that plays
+        _log.exception("the session that plays itself ended")
 
 
 def _facts() -> dict[str, Any]:
@@ -137,6 +152,14 @@ def _tell_errors(app: FastAPI) -> None:
     @app.exception_handler(NotHereError)
     async def missing(request: Request, error: NotHereError) -> JSONResponse:
         return refused(404, str(error))
+
+    @app.exception_handler(OSError)
+    async def unwritten(request: Request, error: OSError) -> JSONResponse:
+        return refused(507, f"The studio could not keep this: {error.strerror or 'the disk failed'}.")
+
+    @app.exception_handler(Exception)
+    async def failed(request: Request, error: Exception) -> JSONResponse:
+        return refused(500, "The studio failed; its log says how.")
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> JSONResponse:
