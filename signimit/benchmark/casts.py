@@ -13,7 +13,8 @@ from signimit.people import Person, drawings
 from signimit.strokes import StrokeLibrary
 from signimit.study.cells import CROWD, wavering
 
-LARGER, FASTER, MORE_SLANTED = 1.8, 1.8, 0.35  # another style: times the size, times the speed, shear added
+LARGER, FASTER, MORE_SLANTED = 1.8, 1.8, 0.9  # another style: times the size, times the speed, shear added
+WAVER = 0.18  # half sizes, root mean square, where people are noisy
 
 
 class Cast(NamedTuple):
@@ -69,8 +70,8 @@ def strangers(language: Language, samples: int, who: np.random.Generator, how: n
 def wavering_people(language: Language, samples: int, who: np.random.Generator, how: np.random.Generator) -> Cast:
     """The same people, and a slow waver in all that they draw."""
     signs, movements, _ = same_people(language, samples, who, how)
-    signs = wavering(signs, how)
-    return Cast(signs, wavering(movements, how), signs)
+    signs = wavering(signs, how, WAVER)
+    return Cast(signs, wavering(movements, how, WAVER), signs)
 
 
 def sign_labels(language: Language) -> tuple[str, ...]:

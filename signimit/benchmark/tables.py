@@ -74,7 +74,7 @@ def _page(summaries: Sequence[Summary]) -> Iterator[str]:
     yield "# Leaderboard"
     yield ""
     yield "Written by `sh scripts/run.sh benchmark table` from the JSON files beside it; docs/benchmark.md says what is"
-    yield f"measured. The people are synthetic. For each command a hand moves for {SECONDS:g} s at 50 Hz, without physics."
+    yield f"measured. The people are synthetic. Each command moves a hand for {SECONDS:g} s at 50 Hz, without physics."
     yield ""
     yield "Commands obeyed, in per cent; *all* is the mean over the splits. Entries in italics are oracles: they are"
     yield "told what no learner is told."

@@ -1,0 +1,155 @@
+"""Every split is the paper's session with one thing changed."""
+
+import numpy as np
+import pytest
+
+from signimit.benchmark.casts import another_style, same_people, strangers
+from signimit.benchmark.sessions import BenchmarkSession, compose_session, with_more_demonstrations
+from signimit.benchmark.splits import SPLITS, choose_splits
+from signimit.exceptions import UnknownNameError
+from signimit.languages import PAPER_LANGUAGE
+from signimit.study.cells import CROWD
+
+
+@pytest.fixture(scope="module")
+def paper() -> BenchmarkSession:
+    return compose_session(SPLITS["paper"], 3)
+
+
+def composed(name: str) -> BenchmarkSession:
+    return compose_session(SPLITS[name], 3)
+
+
+def shown_alike(a: BenchmarkSession, b: BenchmarkSession) -> bool:
+    """Whether the same was demonstrated, to the last bit."""
+    x, y = a.demonstrations.to_arrays(), b.demonstrations.to_arrays()
+    return all(np.array_equal(x[name], y[name]) for name in x)
+
+
+def least_distance(objects: np.ndarray) -> float:  # type: ignore[type-arg]
+    gaps = np.linalg.norm(objects[:, None] - objects, axis=2)
+    return float(gaps[~np.eye(len(objects), dtype=bool)].min())
+
+
+def test_the_same_seed_is_the_same_session_and_another_one_another(paper: BenchmarkSession) -> None:
+    assert shown_alike(paper, composed("paper"))
+    assert not shown_alike(paper, compose_session(SPLITS["paper"], 4))
+
+
+def test_the_paper_shows_six_pairs_twice_and_asks_for_all_nine_in_random_order(paper: BenchmarkSession) -> None:
+    assert sorted(paper.truth.requests) == sorted(PAPER_LANGUAGE.seen * 2)
+    asked = [c.request for c in paper.commands]
+    assert sorted(asked) == sorted(PAPER_LANGUAGE.requests)
+    assert asked != sorted(asked)
+
+
+def test_unseen_pairs_are_all_that_is_asked_for(paper: BenchmarkSession) -> None:
+    session = composed("unseen-pair")
+    assert shown_alike(session, paper)
+    assert sorted(c.request for c in session.commands) == sorted([*PAPER_LANGUAGE.held_back] * 3)
+    assert not {c.request for c in session.commands} & set(session.truth.requests)
+
+
+def test_scenes_are_shown_left_and_asked_for_right() -> None:
+    session = composed("unseen-scene")
+    assert (session.demonstrations.objects[..., 0] < 0).all()
+    assert all((c.objects[:, 0] > 0).all() for c in session.commands)
+
+
+def test_a_style_changes_only_what_is_asked(paper: BenchmarkSession) -> None:
+    session = composed("unseen-style")
+    assert shown_alike(session, paper)
+    usual, changed = ([np.ptp(s, axis=0).max() for c in x.commands for s in c.signs] for x in (paper, session))
+    assert np.mean(changed) > 1.5 * np.mean(usual)
+    usual, changed = ([len(s) for c in x.commands for s in c.signs] for x in (paper, session))
+    assert np.mean(changed) < 0.95 * np.mean(usual)
+
+
+def test_strangers_are_a_crowd_and_somebody_else_asks() -> None:
+    who, how = (np.random.default_rng(n) for n in (0, 1))
+    cast = strangers(PAPER_LANGUAGE, 2, who, how)
+    assert len(set(cast.signs.writers)) == len(set(cast.movements.writers)) == CROWD
+    assert len(set(cast.asking.writers)) == 1
+    assert not {s.points.tobytes() for s in cast.asking} & {s.points.tobytes() for s in cast.signs}
+
+
+def test_the_same_signer_goes_on_with_the_same_deck() -> None:
+    cast = same_people(PAPER_LANGUAGE, 2, np.random.default_rng(0), np.random.default_rng(1))
+    assert cast.asking is cast.signs
+    other = another_style(PAPER_LANGUAGE, 2, np.random.default_rng(0), np.random.default_rng(1))
+    assert np.array_equal(other.signs[0].points, cast.signs[0].points)
+
+
+def test_word_order_swaps_the_words_and_nothing_else(paper: BenchmarkSession) -> None:
+    session = composed("word-order")
+    language = session.truth.language
+    assert (language.focus_word, language.movement_word) == (1, 0)
+    assert session.truth.requests == paper.truth.requests
+    assert np.array_equal(session.demonstrations.objects, paper.demonstrations.objects)
+
+
+def test_a_filler_stands_between_the_words() -> None:
+    session = composed("filler-word")
+    assert {len(d.signs) for d in session.demonstrations} == {len(c.signs) for c in session.commands} == {3}
+    assert (session.truth.language.focus_word, session.truth.language.movement_word) == (0, 2)
+
+
+def test_many_and_few() -> None:
+    many, few = composed("many"), composed("few")
+    assert (len(many.demonstrations), many.demonstrations.objects.shape[1], len(many.commands)) == (16, 6, 16)
+    assert len(set(many.truth.movement)) == 8
+    assert sorted(few.truth.requests) == sorted(PAPER_LANGUAGE.seen)
+
+
+def test_noise_wavers_what_is_drawn_and_leaves_scenes_alone(paper: BenchmarkSession) -> None:
+    session = composed("noisy")
+    assert np.array_equal(session.demonstrations.objects, paper.demonstrations.objects)
+    assert not shown_alike(session, paper)
+
+
+def test_objects_are_ambiguously_near(paper: BenchmarkSession) -> None:
+    session = composed("ambiguous")
+    near = [least_distance(o) for o in (*session.demonstrations.objects, *(c.objects for c in session.commands))]
+    usual = [least_distance(o) for o in (*paper.demonstrations.objects, *(c.objects for c in paper.commands))]
+    assert min(near) >= 0.035 - 1e-9
+    np.testing.assert_allclose(near, np.array(usual) / 4)
+
+
+def test_a_counterfactual_family_differs_in_one_thing() -> None:
+    session = composed("counterfactual")
+    for family in range(3):
+        commands = [c for c in session.commands if c.family == family]
+        assert len(commands) == 4
+        moved = [c for c in commands if not any(np.array_equal(c.objects, d.objects) for d in commands if d is not c)]
+        (permuted,) = moved
+        rest = [c for c in commands if c is not permuted]
+        assert not (permuted.objects == rest[0].objects).all(axis=1).any()
+        assert {map(tuple, permuted.objects)} != {map(tuple, rest[0].objects)}
+        assert sorted(map(tuple, permuted.objects)) == sorted(map(tuple, rest[0].objects))
+        (first,) = (c for c in rest if c.signs[0] is permuted.signs[0] and c.signs[1] is permuted.signs[1])
+        for other in (c for c in rest if c is not first):
+            same = [a is b for a, b in zip(other.signs, first.signs, strict=True)]
+            assert sum(same) == 1
+            assert same == [
+                other.request.focus == first.request.focus,
+                other.request.movement == first.request.movement,
+            ]
+            assert np.array_equal(other.hand, first.hand)
+
+
+def test_more_demonstrations_are_by_the_same_people_and_show_no_pair_that_is_held_back(paper: BenchmarkSession) -> None:
+    lesson = with_more_demonstrations(paper, 20)
+    assert len(lesson.demonstrations) == len(lesson.truth.requests) >= 20
+    assert lesson.demonstrations[:12].demonstrations == paper.demonstrations.demonstrations
+    assert set(lesson.truth.requests) == set(PAPER_LANGUAGE.seen)
+    signs = [s.tobytes() for d in lesson.demonstrations for s in d.signs]
+    assert len(set(signs)) == len(signs)
+    assert not set(signs) & {s.tobytes() for c in paper.commands for s in c.signs}
+    assert with_more_demonstrations(paper, 12).demonstrations is paper.demonstrations
+
+
+def test_an_unknown_split_is_answered_with_the_known_ones() -> None:
+    assert [s.name for s in choose_splits(("few", "paper", "few"))] == ["few", "paper"]
+    assert len(choose_splits(())) == 12
+    with pytest.raises(UnknownNameError, match="Unknown split 'hard'; known are paper, unseen-pair, "):
+        choose_splits(("hard",))
