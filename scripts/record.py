@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from signimit.command_line import run_program
-from signimit.exceptions import InvalidInputError
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
 from signimit_envs.casting import cast_people
 from signimit_envs.recording import record_reproductions, save_recording
+from signimit_envs.recording.exchange import check_vacant_file
 from signimit_envs.session import SessionPlan, compose_session
 
 
@@ -37,8 +37,7 @@ def main(
         policy: Kind of policy that moves the hand.
         overwrite: Replace the file if it is there.
     """
-    if out.exists() and not overwrite:
-        raise InvalidInputError(str(out), "no such file yet (--overwrite replaces it)", "one")
+    check_vacant_file(out, overwrite)
     plan = SessionPlan(seed=seed, attempts=attempts, seconds=seconds, method=method, policy=policy)
     session = compose_session(plan, cast_people(plan.language, np.random.default_rng([seed, 1])))
     model = learn(session.demonstrations, session.prototypes, method, policy, seed)

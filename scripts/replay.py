@@ -18,14 +18,14 @@ from signimit_envs.recording import (
     Recording,
     film_states,
     find_divergence,
-    load_recording,
     observe_states,
 )
+from signimit_envs.recording.exchange import check_vacant_file, read_recording
 from signimit_envs.video import write_video
 
 
 def main(
-    recording: Path,
+    recording: str,
     /,
     *,
     observe: Literal["state", "pixels"] = "state",
@@ -41,7 +41,7 @@ def main(
     have been observed: from its recorded states, so also where a simulation would differ.
 
     Args:
-        recording: Recorded episodes.
+        recording: Recorded episodes: a .npz file; a folder of CSV tables, of Minari or of LeRobot; or minari:NAME.
         observe: What to write: the state (.npz) or pixels (.mp4, or .npz with every frame).
         episode: Which episode to write, from 0.
         camera: Camera of the pixels, "perspective" or "top".
@@ -49,7 +49,7 @@ def main(
         out: File to write.
         overwrite: Replace the file if it is there.
     """
-    recorded = load_recording(recording)
+    recorded = read_recording(recording)
     note = recorded.origin.version_note()
     if note:
         sys.stderr.write(f"note: {note}\n")
@@ -60,8 +60,7 @@ def main(
         raise InvalidInputError("episode", f"0 to {len(recorded) - 1}", f"{episode}")
     if observe == "state" and out.suffix != ".npz":
         raise InvalidInputError(str(out), "a name that ends in .npz for the state", f"{out.suffix!r}")
-    if out.exists() and not overwrite:
-        raise InvalidInputError(str(out), "no such file yet (--overwrite replaces it)", "one")
+    check_vacant_file(out, overwrite)
     chosen = recorded[episode]
     if observe == "state":
         write_archive(out, "replayed state", 1, observe_states(recorded.origin, chosen))

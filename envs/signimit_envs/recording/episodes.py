@@ -63,7 +63,7 @@ class RecordedEpisode:
             object.__setattr__(self, name, numbers)
         for group in ("observations", "infos"):
             arrays = getattr(self, group)
-            rows_of = {name: _rows(array, f"{group}: {name}", steps + 1) for name, array in arrays.items()}
+            rows_of = {name: _rows(arrays[name], f"{group}: {name}", steps + 1) for name in sorted(arrays)}
             object.__setattr__(self, group, rows_of)
 
     def __len__(self) -> int:

@@ -115,12 +115,12 @@ class _Draft:
 
 
 def _numbers(value: Any) -> NDArray[Any] | None:
-    """Return a value as an array if it is numbers."""
+    """Return a value as an array if it is numbers, and some."""
     try:
         array = np.array(value)
     except ValueError:  # ragged
         return None
-    return array if array.dtype.kind in "biuf" else None
+    return array if array.dtype.kind in "biuf" and array.size else None
 
 
 def _stacked(steps: list[Any]) -> dict[str, NDArray[Any]]:

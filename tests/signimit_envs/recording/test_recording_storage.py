@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,23 +11,12 @@ import pytest
 import signimit as si
 from signimit.archive import write_archive
 from signimit_envs.recording import Recording, load_recording, save_recording
-from signimit_envs.recording.episodes import episode_arrays
 
-
-def assert_same(a: Recording, b: Recording) -> None:
-    """Fail unless both are equal, bit for bit."""
-    assert a.origin == b.origin
-    assert [e.seed for e in a] == [e.seed for e in b]
-    for one, other in zip(a, b, strict=True):
-        left, right = episode_arrays(one), episode_arrays(other)
-        assert left.keys() == right.keys()
-        for name, array in left.items():
-            assert (array.dtype, array.shape) == (right[name].dtype, right[name].shape), name
-            assert array.tobytes() == right[name].tobytes(), name
+Same = Callable[[Recording, Recording], None]
 
 
 def test_a_recording_loads_back_bit_for_bit_and_the_same_gives_the_same_bytes(
-    recording: Recording, tmp_path: Path
+    recording: Recording, tmp_path: Path, assert_same: Same
 ) -> None:
     save_recording(tmp_path / "a.npz", recording)
     again = load_recording(tmp_path / "a.npz")

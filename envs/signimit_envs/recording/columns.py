@@ -1,0 +1,120 @@
+"""A recording as a table: one column for each number of a step, with its unit in its name."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit_envs.recording.episodes import Recording, episode_arrays, row_shapes
+
+_UNITS = {
+    "hand": "m",
+    "hand_velocity": "m_per_s",
+    "objects": "m",
+    "joints": "rad",
+    "joint_velocities": "rad_per_s",
+    "controls": "rad_per_s",
+    "ik_residual": "m",
+}
+_PLANAR = ("hand", "hand_velocity", "objects", "signs")  # their last axis is x and y
+_MAX_NUMBERS = 2**31
+
+
+class Field(NamedTuple):
+    """An array of an episode, as columns.
+
+    Attributes:
+        name: Its name in `episode_arrays`.
+        dtype: Type of its numbers.
+        shape: Shape of a step's row.
+    """
+
+    name: str
+    dtype: np.dtype[Any]
+    shape: tuple[int, ...]
+
+    @property
+    def width(self) -> int:
+        """How many columns it takes."""
+        return int(np.prod(self.shape, dtype=np.int64))
+
+    @property
+    def columns(self) -> list[str]:
+        """Names of its columns, e.g. ``observations.hand_x_m``."""
+        short = self.name.rpartition(".")[2]
+        unit = f"_{_UNITS[short]}" if short in _UNITS else ""
+        return [f"{self.name}{self._place(index, short)}{unit}" for index in np.ndindex(self.shape)]
+
+    def _place(self, index: tuple[int, ...], short: str) -> str:
+        texts = [str(number) for number in index]
+        if short in _PLANAR and self.shape[-1:] == (2,):
+            texts[-1] = "xy"[index[-1]]
+        return "".join(f"_{text}" for text in texts)
+
+    def flat(self, array: NDArray[Any]) -> NDArray[Any]:
+        """Lay each step's numbers in a row, shape (rows, width)."""
+        return array.reshape(len(array), self.width)
+
+    def shaped(self, rows: Any) -> NDArray[Any]:
+        """Undo `flat`."""
+        return np.asarray(rows).astype(self.dtype).reshape(len(rows), *self.shape)
+
+
+def fields_of(recording: Recording) -> list[Field]:
+    """Return the fields that all episodes have."""
+    return [Field(name, np.dtype(dtype), shape) for name, (dtype, shape) in row_shapes(recording[0]).items()]
+
+
+def constant_fields(recording: Recording) -> set[str]:
+    """Return the names of the observations and infos that stay the same throughout each episode."""
+    names = {name for name in episode_arrays(recording[0]) if "." in name}
+    for episode in recording:
+        arrays = episode_arrays(episode)
+        names = {name for name in names if (_bits(arrays[name]) == _bits(arrays[name][:1])).all()}
+    return names
+
+
+def _bits(array: NDArray[Any]) -> NDArray[np.uint8]:
+    """Return the bytes of each row, so that 0.0 and -0.0 differ and NaN is like itself."""
+    return np.frombuffer(array.tobytes(), np.uint8).reshape(len(array), -1)
+
+
+def has_last_row(name: str) -> bool:
+    """Tell whether a field has a row for the end of an episode, as what is seen has and what is done has not."""
+    return name == "states" or "." in name
+
+
+def fields_to_meta(recording: Recording) -> dict[str, Any]:
+    """Return the fields as what JSON can say."""
+    return {field.name: [field.dtype.str, list(field.shape)] for field in fields_of(recording)}
+
+
+def fields_from_meta(meta: Any, where: str) -> list[Field]:
+    """Undo `fields_to_meta`, complaining about ``where`` if that cannot be."""
+    try:
+        fields = [
+            Field(str(name), np.dtype(str(dtype)), tuple(map(int, shape))) for name, (dtype, shape) in meta.items()
+        ]
+    except (AttributeError, TypeError, ValueError) as error:
+        raise FileFormatError(where, "the types and shapes of a recording", f"{error!r:.80}") from None
+    for field in fields:
+        if field.dtype.kind not in "biuf" or min(field.shape, default=0) < 0 or field.width > _MAX_NUMBERS:
+            raise FileFormatError(f"{where}: {field.name}", "a field of numbers", f"{field.dtype} {field.shape}")
+    return fields
+
+
+def check_columns(columns: list[str], most: int) -> None:
+    """Refuse columns that are too many or of the same name.
+
+    Raises:
+        InvalidInputError: Says which.
+    """
+    if len(columns) > most:
+        expected = f"at most {most} numbers a step (record states, and let replay.py draw the pixels)"
+        raise InvalidInputError("recording", expected, f"{len(columns)}")
+    twice = sorted({name for name in columns if columns.count(name) > 1})
+    if twice:
+        raise InvalidInputError("recording", "a column for each number", f"{twice[0]!r} twice")

@@ -1,0 +1,170 @@
+"""One way in and one way out: demonstrations and recordings in any format that signimit knows."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from signimit import demonstrations as demonstration_files
+from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.formats.csv_demonstrations import HANDS, read_csv_demonstrations, write_csv_demonstrations
+from signimit_envs.recording import csv_recordings, minari_store
+from signimit_envs.recording.csv_recordings import read_csv_recording, write_csv_recording
+from signimit_envs.recording.episodes import Recording
+from signimit_envs.recording.minari_demonstrations import read_minari_demonstrations, write_minari_demonstrations
+from signimit_envs.recording.minari_recordings import read_minari_recording, write_minari_recording
+from signimit_envs.recording.storage import load_recording, save_recording
+
+Data = Recording | DemonstrationSet
+MINARI_PREFIX = "minari:"
+"""Begins the name of a data set among Minari's own, e.g. ``minari:signimit/obey-v0``."""
+
+
+class Format(NamedTuple):
+    """A file format.
+
+    Attributes:
+        read_recording: Reads a recording from a place.
+        read_demonstrations: Reads demonstrations from a place.
+        write_recording: Writes a recording to a place, replacing one if told so.
+        write_demonstrations: Writes demonstrations to a place, replacing some if told so.
+        markers: Files by which a folder of this format is known.
+    """
+
+    read_recording: Callable[[str], Recording]
+    read_demonstrations: Callable[[str], DemonstrationSet]
+    write_recording: Callable[[str, Recording, bool], object]
+    write_demonstrations: Callable[[str, DemonstrationSet, bool], object]
+    markers: tuple[str, ...] = ()
+
+
+def _save_recording(path: str, recording: Recording, overwrite: bool) -> None:
+    check_vacant_file(path, overwrite)
+    save_recording(path, recording)
+
+
+def _save_demonstrations(path: str, demonstrations: DemonstrationSet, overwrite: bool) -> None:
+    check_vacant_file(path, overwrite)
+    demonstrations.save(path)
+
+
+FORMATS = {
+    "npz": Format(load_recording, DemonstrationSet.load, _save_recording, _save_demonstrations),
+    "csv": Format(
+        read_csv_recording,
+        read_csv_demonstrations,
+        write_csv_recording,
+        write_csv_demonstrations,
+        (csv_recordings.STEPS, HANDS),
+    ),
+    "minari": Format(
+        read_minari_recording,
+        read_minari_demonstrations,
+        write_minari_recording,
+        write_minari_demonstrations,
+        (minari_store.MARKER,),
+    ),
+}
+
+
+def check_vacant_file(path: str | os.PathLike[str], overwrite: bool) -> None:
+    """Refuse a place where there is something, unless a file that may be replaced.
+
+    Raises:
+        InvalidInputError: Names the place.
+    """
+    place = Path(path)
+    if os.path.lexists(place) and not (overwrite and place.is_file()):
+        raise InvalidInputError(str(place), "nothing of that name yet (overwrite replaces a file)", "something")
+
+
+def read_data(place: str | os.PathLike[str]) -> Data:
+    """Read demonstrations or a recording, whatever is there, in whichever format.
+
+    Args:
+        place: A ``.npz`` file, a folder, or ``minari:`` and the name of a data set.
+
+    Raises:
+        FileNotFoundError: If there is nothing.
+        FileFormatError: If it is none of signimit's formats, or half written.
+        MissingDependencyError: If the format needs a package that is not installed.
+    """
+    name = detect_format(place)
+    where = _location(place)
+    if name == "csv":
+        found = (Path(where) / HANDS).is_file()
+        return read_csv_demonstrations(where) if found else read_csv_recording(where)
+    try:
+        return FORMATS[name].read_recording(where)
+    except FileFormatError as error:
+        if not error.found.startswith(f"{demonstration_files.KIND} version"):
+            raise
+        return FORMATS[name].read_demonstrations(where)
+
+
+def read_recording(place: str | os.PathLike[str]) -> Recording:
+    """Read a recording in any format; see `read_data`.
+
+    Raises:
+        FileFormatError: Also if there are demonstrations instead, which have no physics to replay.
+    """
+    data = read_data(place)
+    if isinstance(data, DemonstrationSet):
+        raise FileFormatError(os.fspath(place), "recorded episodes", "demonstrations, which hold no physics")
+    return data
+
+
+def write_data(place: str | os.PathLike[str], data: Data, name: str, overwrite: bool = False) -> None:
+    """Write demonstrations or a recording, whole or not at all.
+
+    Args:
+        place: A file for ``npz``, a folder for ``csv`` and ``lerobot``, the name of a data set for ``minari``, with or
+            without ``minari:``.
+        data: What to write.
+        name: One of `FORMATS`.
+        overwrite: Replace a data set of the same format that is there.
+
+    Raises:
+        UnknownNameError: If there is no such format.
+        InvalidInputError: If there is something of that name already, or the format cannot hold this.
+        MissingDependencyError: If the format needs a package that is not installed.
+    """
+    if name not in FORMATS:
+        raise UnknownNameError("format", name, FORMATS)
+    where = os.fspath(place).removeprefix(MINARI_PREFIX) if name == "minari" else os.fspath(place)
+    if isinstance(data, Recording):
+        FORMATS[name].write_recording(where, data, overwrite)
+    else:
+        FORMATS[name].write_demonstrations(where, data, overwrite)
+
+
+def detect_format(place: str | os.PathLike[str]) -> str:
+    """Tell by name and content which of `FORMATS` something is in.
+
+    Raises:
+        FileNotFoundError: If there is nothing.
+        FileFormatError: If it is a folder that is none of them.
+    """
+    if os.fspath(place).startswith(MINARI_PREFIX):
+        return "minari"
+    where = Path(place)
+    where.stat()
+    if not where.is_dir():
+        return "npz"
+    for name, known in FORMATS.items():
+        if any((where / marker).is_file() for marker in known.markers):
+            return name
+    markers = ", ".join(marker for known in FORMATS.values() for marker in known.markers)
+    raise FileFormatError(str(where), f"a whole data set, with one of {markers}", "none of these")
+
+
+def _location(place: str | os.PathLike[str]) -> str:
+    text = os.fspath(place)
+    if not text.startswith(MINARI_PREFIX):
+        return text
+    folder = minari_store.dataset_folder(text.removeprefix(MINARI_PREFIX))
+    folder.stat()
+    return os.fspath(folder)

@@ -1,0 +1,113 @@
+"""Demonstrations as Minari data sets, seen as the environment would show them."""
+
+from __future__ import annotations
+
+import copy
+import os
+from pathlib import Path
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+
+from signimit.demonstrations import KIND, VERSION, Demonstration, DemonstrationSet
+from signimit.signs import SAMPLES, normalised_sign
+from signimit_envs.recording.minari_store import create_dataset, import_minari, minari_errors, open_dataset
+from signimit_envs.scene import OBJECT_COUNTS
+from signimit_envs.situations import WORDS
+from signimit_envs.tabletop_hand import TabletopHandEnv
+
+_ENV_ID = "signimit/TabletopHand-v0"
+_ALMOST = 1e-9
+
+
+def write_minari_demonstrations(dataset_id: str, demonstrations: DemonstrationSet, overwrite: bool = False) -> Path:
+    """Make a Minari data set, one episode a demonstration.
+
+    Observations are ``hand`` (2,), m, ``objects`` (O, 2), m, and ``signs`` (W, 64, 2), resampled and scaled as in the
+    environment; actions the hand's mean velocity until the next sample, in units of
+    `TabletopHandEnv.max_hand_speed`. ``infos`` has ``time``, s, and the signs as they were drawn, ``sign_0`` and so on.
+    `recover_environment` gives ``signimit/TabletopHand-v0`` with as many objects, where that can be.
+
+    Args:
+        dataset_id: Its name among Minari's data sets, e.g. ``"signimit/demonstrations-v0"``.
+        demonstrations: What to write.
+        overwrite: Replace a data set of that name.
+
+    Returns:
+        Its folder.
+
+    Raises:
+        InvalidInputError: If the name cannot be, or is taken.
+        MissingDependencyError: If Minari is not installed.
+    """
+    import_minari()
+    buffers = [_buffer(one) for one in demonstrations]
+    count, words = len(demonstrations[0].objects), len(demonstrations[0].signs)
+    spec = None
+    if count in OBJECT_COUNTS and words == WORDS:
+        spec = copy.deepcopy(gym.spec(_ENV_ID))  # what is asked for is the registered one itself
+        spec.kwargs["objects"] = count
+    header = {"kind": KIND, "version": VERSION}
+    spaces = {
+        "observation_space": _observation_space(demonstrations),
+        "action_space": _box(max(1.0, *(float(np.abs(buffer.actions).max()) for buffer in buffers)), 2),
+    }
+    description = "Demonstrations to signimit: two signs, objects and a hand that answers; nobody labelled them."
+    return create_dataset(dataset_id, buffers, header, overwrite, env=spec, description=description, **spaces)
+
+
+def read_minari_demonstrations(folder: str | os.PathLike[str]) -> DemonstrationSet:
+    """Read what `write_minari_demonstrations` wrote.
+
+    Raises:
+        FileFormatError: If it is half written or not a demonstration set of signimit.
+        MissingDependencyError: If Minari is not installed.
+    """
+    dataset, _ = open_dataset(folder, KIND, VERSION)
+    with minari_errors(folder):
+        return DemonstrationSet(_demonstration(data) for data in dataset.iterate_episodes())
+
+
+def _buffer(one: Demonstration) -> Any:
+    from minari.data_collector import EpisodeBuffer
+
+    steps, samples = len(one.hand) - 1, len(one.hand)
+    signs = np.stack([normalised_sign(sign) for sign in one.signs])
+    velocities = np.diff(one.hand, axis=0) / np.diff(one.times)[:, None]
+    last = np.arange(steps) == steps - 1
+    return EpisodeBuffer(
+        observations={
+            "hand": one.hand,
+            "objects": np.broadcast_to(one.objects, (samples, *one.objects.shape)),
+            "signs": np.broadcast_to(signs, (samples, *signs.shape)),
+        },
+        actions=velocities / TabletopHandEnv.max_hand_speed,
+        rewards=np.zeros(steps),
+        terminations=np.zeros(steps, dtype=bool),
+        truncations=last,
+        infos={"time": one.times, **{f"sign_{number}": sign for number, sign in enumerate(one.signs)}},
+    )
+
+
+def _demonstration(data: Any) -> Demonstration:
+    seen, infos = data.observations, data.infos
+    words = seen["signs"].shape[1]
+    signs = tuple(infos[f"sign_{number}"] for number in range(words))
+    return Demonstration(signs, seen["objects"][0], seen["hand"], infos["time"])
+
+
+def _observation_space(demonstrations: DemonstrationSet) -> gym.spaces.Dict:
+    count, words = len(demonstrations[0].objects), len(demonstrations[0].signs)
+    return gym.spaces.Dict(
+        {
+            "hand": _box(max(float(np.abs(path).max()) for path in demonstrations.paths), 2),
+            "objects": _box(float(np.abs(demonstrations.objects).max()), count, 2),
+            "signs": _box(1.0, words, SAMPLES, 2),
+        }
+    )
+
+
+def _box(limit: float, *shape: int) -> gym.spaces.Box:
+    bound = np.full(shape, limit + _ALMOST)
+    return gym.spaces.Box(-bound, bound, shape, np.float64)

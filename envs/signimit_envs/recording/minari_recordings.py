@@ -1,0 +1,99 @@
+"""Recordings as Minari data sets: plain episodes to whoever reads them, and the physics beside, in ``infos``."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit_envs.recording.episodes import BOX, RecordedEpisode, Recording
+from signimit_envs.recording.minari_store import create_dataset, import_minari, minari_errors, open_dataset
+from signimit_envs.recording.origin import RecordingOrigin
+from signimit_envs.recording.storage import KIND, VERSION, seeds_of
+
+_PHYSICS = "physics"
+
+
+def write_minari_recording(dataset_id: str, recording: Recording, overwrite: bool = False) -> Path:
+    """Make a Minari data set whose `recover_environment` gives the recorded environment.
+
+    ``infos`` has what the environment's had, ``physics/state`` (see `STATE_SPEC`) and ``physics/control``, which has a
+    row of zeros at the start.
+
+    Args:
+        dataset_id: Its name among Minari's data sets, e.g. ``"signimit/obey-v0"``.
+        recording: What to write.
+        overwrite: Replace a data set of that name.
+
+    Returns:
+        Its folder.
+
+    Raises:
+        InvalidInputError: If the name cannot be, or is taken.
+        MissingDependencyError: If Minari is not installed.
+    """
+    import_minari()
+    spec = recording.origin.make_spec()
+    with gym.make(spec) as env:
+        spaces = {"observation_space": env.observation_space, "action_space": env.action_space}
+    header = {
+        "kind": KIND,
+        "version": VERSION,
+        "origin": recording.origin.to_meta(),
+        "seeds": [episode.seed for episode in recording],
+    }
+    buffers = [_buffer(episode, isinstance(spaces["observation_space"], gym.spaces.Dict)) for episode in recording]
+    description = "Episodes of signimit's environments with the full physics state; scripts/replay.py replays them."
+    return create_dataset(dataset_id, buffers, header, overwrite, env=spec, description=description, **spaces)
+
+
+def read_minari_recording(folder: str | os.PathLike[str]) -> Recording:
+    """Read what `write_minari_recording` wrote.
+
+    Raises:
+        FileFormatError: If it is half written or not a recording of signimit.
+        MissingDependencyError: If Minari is not installed.
+    """
+    dataset, header = open_dataset(folder, KIND, VERSION)
+    origin = RecordingOrigin.from_meta(header.get("origin"), os.fspath(folder))
+    seeds = seeds_of(header.get("seeds"), dataset.total_episodes, os.fspath(folder))
+    with minari_errors(folder):
+        return Recording(
+            origin, [_episode(data, seed) for data, seed in zip(dataset.iterate_episodes(), seeds, strict=True)]
+        )
+
+
+def _buffer(episode: RecordedEpisode, named: bool) -> Any:
+    from minari.data_collector import EpisodeBuffer
+
+    start = np.zeros((1, episode.controls.shape[1]))
+    physics = {"state": episode.states, "control": np.concatenate([start, episode.controls])}
+    return EpisodeBuffer(
+        seed=episode.seed,
+        observations=dict(episode.observations) if named else episode.observations[BOX],
+        actions=episode.actions,
+        rewards=episode.rewards,
+        terminations=episode.terminations,
+        truncations=episode.truncations,
+        infos={**episode.infos, _PHYSICS: physics},
+    )
+
+
+def _episode(data: Any, seed: int | None) -> RecordedEpisode:
+    infos: dict[str, Any] = dict(data.infos)
+    physics: dict[str, NDArray[np.float64]] = infos.pop(_PHYSICS)
+    return RecordedEpisode(
+        observations=data.observations if isinstance(data.observations, dict) else {BOX: data.observations},
+        actions=data.actions,
+        rewards=data.rewards,
+        terminations=data.terminations,
+        truncations=data.truncations,
+        infos=infos,
+        states=physics["state"],
+        controls=physics["control"][1:],
+        seed=seed,
+    )

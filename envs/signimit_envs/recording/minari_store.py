@@ -1,0 +1,155 @@
+"""Minari's folders: made whole or not at all, found by name or by place, read without running what they name."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import shutil
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+
+from signimit.exceptions import FileFormatError, InvalidInputError, MissingDependencyError
+from signimit.formats.whole_folder import check_vacant, whole_folder
+
+if TYPE_CHECKING:
+    from minari import MinariDataset
+    from minari.data_collector import EpisodeBuffer
+
+MARKER = "data/metadata.json"
+_OURS = "signimit"
+_ROOT = "MINARI_DATASETS_PATH"
+_REQUIREMENTS = ["signimit", f"mujoco=={mujoco.__version__}"]
+
+
+def import_minari() -> Any:
+    """Return the package.
+
+    Raises:
+        MissingDependencyError: If it is not installed.
+    """
+    try:
+        importlib.import_module("h5py")  # Minari's storage, which it does not require itself
+        import minari
+    except ImportError:
+        raise MissingDependencyError("minari", "minari", "A Minari data set") from None
+    return minari
+
+
+def create_dataset(
+    dataset_id: str, buffers: Sequence[EpisodeBuffer], header: dict[str, Any], overwrite: bool, **arguments: Any
+) -> Path:
+    """Make a data set among Minari's own, whole or not at all.
+
+    Args:
+        dataset_id: Its name, ``namespace/name-v0``.
+        buffers: Its episodes.
+        header: What only signimit knows, as JSON can say it; read back by `open_dataset`.
+        overwrite: Replace a data set of that name.
+        **arguments: More for `minari.create_dataset_from_buffers`.
+
+    Returns:
+        Its folder.
+
+    Raises:
+        InvalidInputError: If the name cannot be, or is taken.
+        MissingDependencyError: If Minari is not installed.
+    """
+    minari = import_minari()
+    try:
+        namespace = minari.dataset.minari_dataset.parse_dataset_id(dataset_id)[0]
+    except (ValueError, TypeError):
+        raise InvalidInputError("Minari data set", "a name like signimit/obey-v0", repr(dataset_id)) from None
+    place = dataset_folder(dataset_id)
+    check_vacant(place, MARKER, overwrite)
+    if namespace is not None and namespace not in minari.namespace.list_local_namespaces():
+        minari.namespace.create_namespace(namespace)
+    with whole_folder(place, MARKER, overwrite) as draft:
+        with _datasets_in(draft / "root"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # that there is no author, no permalink and so on
+            dataset = minari.create_dataset_from_buffers(
+                dataset_id, list(buffers), requirements=_REQUIREMENTS, jpeg_encoding=False, **arguments
+            )
+            dataset.storage.update_metadata({_OURS: header})
+            os.rename(dataset_folder(dataset_id) / "data", draft / "data")
+        shutil.rmtree(draft / "root")
+    return place
+
+
+def open_dataset(place: str | os.PathLike[str], kind: str, version: int) -> tuple[MinariDataset, dict[str, Any]]:
+    """Open a data set that signimit wrote.
+
+    Args:
+        place: Its folder.
+        kind: What it must hold.
+        version: Newest layout of that which the caller understands.
+
+    Returns:
+        The data set, and the header it was made with.
+
+    Raises:
+        FileFormatError: If it is half written, of another version of Minari, or not signimit's.
+        MissingDependencyError: If Minari is not installed.
+    """
+    minari = import_minari()
+    try:
+        metadata = json.loads((Path(place) / MARKER).read_bytes())
+        header = metadata[_OURS]
+        found, number = header["kind"], int(header["version"])
+        # Without these Minari would make the environment that the file names, whatever code that is.
+        _ = metadata["observation_space"], metadata["action_space"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        expected = f"a whole Minari data set with a {kind} of signimit"
+        raise FileFormatError(os.fspath(place), expected, _reason(error)) from None
+    if found != kind or number > version:
+        expected = f"a Minari data set with a {kind} of signimit, version <= {version}"
+        raise FileFormatError(os.fspath(place), expected, f"{found} version {number}")
+    with minari_errors(place):
+        return minari.MinariDataset(Path(place) / "data"), header
+
+
+@contextmanager
+def minari_errors(place: str | os.PathLike[str]) -> Iterator[None]:
+    """Turn what Minari and HDF5 raise of a broken data set into one sentence."""
+    try:
+        yield
+    except (OSError, ValueError, KeyError, TypeError, AssertionError, AttributeError, IndexError) as error:
+        if isinstance(error, InvalidInputError):
+            raise FileFormatError(f"{place}: {error.where}", error.expected, error.found) from None
+        raise FileFormatError(os.fspath(place), "a whole Minari data set", _reason(error)) from None
+
+
+def dataset_folder(dataset_id: str) -> Path:
+    """Return where Minari keeps, or would keep, a data set.
+
+    Raises:
+        MissingDependencyError: If Minari is not installed.
+    """
+    import_minari()
+    from minari.storage.datasets_root_dir import get_dataset_path
+
+    return Path(get_dataset_path(dataset_id))
+
+
+def _reason(error: Exception) -> str:
+    """Say shortly what went wrong."""
+    return f"{type(error).__name__}: {' '.join(str(error).split())[:120]}"
+
+
+@contextmanager
+def _datasets_in(root: Path) -> Iterator[None]:
+    """Let Minari keep its data sets elsewhere for a while; its functions know no other way to be told."""
+    before = os.environ.get(_ROOT)
+    os.environ[_ROOT] = str(root)
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_ROOT]
+        else:
+            os.environ[_ROOT] = before

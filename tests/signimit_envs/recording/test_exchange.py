@@ -1,0 +1,88 @@
+"""Whatever is written in one format is read by name or place, and goes through every other format unharmed."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import signimit as si
+from signimit_envs.recording import Recording
+from signimit_envs.recording.exchange import FORMATS, read_data, read_recording, write_data
+
+Same = Callable[[Recording, Recording], None]
+NEEDED = {"minari": ("minari", "h5py"), "lerobot": ("pyarrow",)}
+PLACES = {"npz": "{}.npz", "csv": "{}-tables", "minari": "minari:{}-v0", "lerobot": "{}-lerobot"}
+
+
+def place_for(name: str, what: str, folder: Path) -> str:
+    """Return where to write, or skip what cannot be written here."""
+    for package in NEEDED.get(name, ()):
+        pytest.importorskip(package)
+    place = PLACES[name].format(what)
+    return place if name == "minari" else str(folder / place)
+
+
+def test_the_way_through_every_format_changes_nothing(
+    recording: Recording, demonstrations: si.DemonstrationSet, tmp_path: Path, minari_root: Path, assert_same: Same
+) -> None:
+    played, shown = recording, demonstrations
+    for name in FORMATS:
+        if any(importlib.util.find_spec(package) is None for package in NEEDED.get(name, ())):
+            continue
+        for what, data in (("played", played), ("shown", shown)):
+            write_data(place_for(name, what, tmp_path), data, name)
+        played = read_recording(place_for(name, "played", tmp_path))
+        again = read_data(place_for(name, "shown", tmp_path))
+        assert isinstance(again, si.DemonstrationSet)
+        shown = again
+        assert_same(played, recording)
+        for field, array in demonstrations.to_arrays().items():
+            assert shown.to_arrays()[field].tobytes() == array.tobytes(), (name, field)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_nothing_is_replaced_unless_on_request(
+    demonstrations: si.DemonstrationSet, recording: Recording, tmp_path: Path, minari_root: Path, name: str
+) -> None:
+    place = place_for(name, "shown", tmp_path)
+    write_data(place, demonstrations, name)
+    with pytest.raises(si.InvalidInputError, match="overwrite"):
+        write_data(place, demonstrations[:1], name)
+    assert len(read_data(place)) == 3
+    write_data(place, demonstrations[:1], name, overwrite=True)
+    assert len(read_data(place)) == 1
+
+
+@pytest.mark.parametrize("name", [name for name in FORMATS if name in NEEDED])
+def test_a_missing_package_is_named_with_the_extra_that_brings_it(
+    demonstrations: si.DemonstrationSet,
+    recording: Recording,
+    tmp_path: Path,
+    minari_root: Path,
+    name: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(sys.modules, NEEDED[name][0], None)
+    for data in (demonstrations, recording):
+        with pytest.raises(si.MissingDependencyError, match=rf"pip install 'signimit\[{name}\]'"):
+            write_data(str(tmp_path / "set-v0") if name != "minari" else "set-v0", data, name)
+    assert not (tmp_path / "set-v0").exists()
+
+
+def test_what_is_no_data_set_is_refused_in_one_sentence(
+    demonstrations: si.DemonstrationSet, tmp_path: Path, minari_root: Path
+) -> None:
+    with pytest.raises(FileNotFoundError):
+        read_data(tmp_path / "none.npz")
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(si.SignimitError, match=r"expected a whole data set, with one of steps\.csv, hands\.csv"):
+        read_data(tmp_path / "empty")
+    demonstrations.save(tmp_path / "d.npz")
+    with pytest.raises(si.SignimitError, match="expected recorded episodes, found demonstrations"):
+        read_recording(tmp_path / "d.npz")
+    with pytest.raises(si.UnknownNameError, match="Unknown format 'rlds'; known are npz, csv"):
+        write_data(tmp_path / "d", demonstrations, "rlds")
