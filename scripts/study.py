@@ -21,19 +21,30 @@ from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
 from signimit.output import whole_files
 from signimit.strokes import StrokeLibrary
+from signimit.study.asking import asking_cells, run_lessons
 from signimit.study.cells import Cell, People, study_cells
-from signimit.study.figures import draw_calibration, draw_cells, draw_growth
-from signimit.study.records import OURS, Record, read_records, run_sessions
+from signimit.study.figures import draw_calibration, draw_cells, draw_growth, draw_lessons
+from signimit.study.records import OURS, Record, read_records, run_session, run_sessions
 from signimit.study.scaling import Measurement, measure_growth
 from signimit.study.scoring import calibrate
-from signimit.study.tables import Row, beaten_cells, markdown, tabulate, write_csv
+from signimit.study.tables import (
+    LessonRow,
+    Row,
+    beaten_cells,
+    demonstrations_needed,
+    markdown,
+    tabulate,
+    tabulate_lessons,
+    write_csv,
+)
 
 OUT = Path("results/study")
+UNDERSTOOD = 0.95  # share of commands that a lesson shall come to
 LONGEST = 60.0  # s; a step that took longer is not measured at larger sizes
 
 
 def main(
-    what: Literal["cells", "calibration", "scaling"],
+    what: Literal["cells", "calibration", "asking", "scaling"],
     /,
     *,
     sessions: int = 20,
@@ -48,8 +59,9 @@ def main(
     """Compare the default learner with all baselines, look at its confidence, measure how it grows.
 
     Args:
-        what: The table of all cells, which goes on where a killed run stopped; the calibration of confidence in the
-            sessions of that table; or time and memory against the number of demonstrations.
+        what: The table of all cells; the calibration of confidence in the sessions of that table; how much sooner a
+            learner understands that asks; or time and memory against the number of demonstrations. Cells and asking
+            go on where a killed run stopped.
         sessions: How many of each cell.
         first_seed: Seed of the first; the others follow.
         signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
@@ -67,17 +79,19 @@ def main(
         people = None
         if signs is not None and movements is not None:
             people = People(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
-        chosen = [c for c in study_cells(people is not None) if only in c.name]
+        kinds = study_cells if what == "cells" else asking_cells
+        chosen = [c for c in kinds(people is not None) if only in c.name]
         if sessions < 1 or not chosen:
             raise InvalidInputError("cells", "at least 1 session of 1 cell", f"{sessions} of {len(chosen)}")
         workers = workers or max(1, (os.cpu_count() or 2) - 1)
-        cells(chosen, range(first_seed, first_seed + sessions), people, workers, out)
+        seeds = range(first_seed, first_seed + sessions)
+        (cells if what == "cells" else asking)(chosen, seeds, people, workers, out)
 
 
 def cells(chosen: list[Cell], seeds: range, people: People | None, workers: int, out: Path) -> None:
     """Run the sessions that were not run yet, and write the table of all."""
     records = out / "sessions.jsonl"
-    for _ in tqdm(run_sessions(chosen, seeds, records, people, workers), unit="session"):
+    for _ in tqdm(run_sessions(run_session, chosen, seeds, records, people, workers), unit="session"):
         pass
     order = {c.name: number for number, c in enumerate(chosen)}
     found = [r for r in read_records(records) if r["cell"] in order and r["seed"] in seeds]
@@ -92,6 +106,24 @@ def cells(chosen: list[Cell], seeds: range, people: People | None, workers: int,
     print(markdown(rows))
     for cell, method, theirs, ours in beaten_cells(rows):
         print(f"{cell}: {method} was right in {theirs} sessions, {OURS} in {ours}")
+
+
+def asking(chosen: list[Cell], seeds: range, people: People | None, workers: int, out: Path) -> None:
+    """Run the lessons that were not run yet, and write the curves of all."""
+    records = out / "lessons.jsonl"
+    for _ in tqdm(run_sessions(run_lessons, chosen, seeds, records, people, workers), unit="lesson"):
+        pass
+    names = [c.name for c in chosen]
+    found = [r for r in read_records(records) if r["cell"] in names and r["seed"] in seeds]
+    rows = tabulate_lessons(sorted(found, key=lambda r: (names.index(r["cell"]), r["seed"])))
+    needed = demonstrations_needed(rows, UNDERSTOOD)
+    with whole_files(out) as folder:
+        write_csv(folder / "asking.csv", LessonRow._fields, rows)
+        facts = {"seeds": [seeds[0], seeds[-1]], f"demonstrations until {UNDERSTOOD:.0%} are understood": needed}
+        _write_facts(folder / "asking.json", facts)
+        draw_lessons(rows).savefig(folder / "asking.png", dpi=90)
+    for cell, strategy, count in needed:
+        print(f"{cell}, asking {strategy}: {UNDERSTOOD:.0%} understood from {count or 'more'} demonstrations on")
 
 
 def calibration(out: Path) -> None:

@@ -24,6 +24,7 @@ M        memberships of trajectories in movement groups, ``(N, N)``     m_{m;t}
 Metres, seconds, radians. Table frame: x right, y away from the arm's base, origin at the table's centre.
 """
 
+from signimit.asking import Query as Query
 from signimit.composition import GroundTruth as GroundTruth
 from signimit.composition import compose_demonstrations as compose_demonstrations
 from signimit.demonstrations import Demonstration as Demonstration

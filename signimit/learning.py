@@ -11,21 +11,20 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.archive import read_archive, write_archive
+from signimit.asking import Query, choose_query
 from signimit.demonstrations import Demonstration, DemonstrationSet
-from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.explanation import Reasons, explain_understanding
 from signimit.frames import TablePolicy, on_table
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
-from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, make_policy
+from signimit.model_archive import ModelParts, check_policy_kind, frozen, read_model, write_model
+from signimit.policies import DEFAULT_POLICY, Policy, make_policy
 from signimit.signs import prototype_points
-from signimit.strokes import Stroke, cut, flatten
+from signimit.strokes import Stroke
 from signimit.summary import summarise
 from signimit.understanding import IncrementalLearner, SignReader, Understanding
-from signimit.validation import finite_array, item_list, make_generator, moving_points, whole_numbers
-
-KIND, VERSION = "imitation model", 1
+from signimit.validation import finite_array, item_list, make_generator, moving_points
 
 
 class Movement(NamedTuple):
@@ -136,6 +135,22 @@ class ImitationModel:
         confidence = float(reading.movement[movement] * reading.focus[focus])
         return Response(movement, focus, on_table(self.policy(movement), places[focus]), confidence)
 
+    def respond_if_sure(self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float) -> Response | None:
+        """Answer as `respond` does, or decline: return None where the confidence is below ``least``.
+
+        Args:
+            signs: As for `respond`.
+            objects: As for `respond`.
+            least: Confidence below which to decline, from 0 (never) to 1.
+
+        Raises:
+            InvalidInputError: As `respond`, and if ``least`` is no probability.
+        """
+        if not 0.0 <= least <= 1.0:
+            raise InvalidInputError("least", "a probability from 0 to 1", f"{least}")
+        response = self.respond(signs, objects)
+        return response if response.confidence >= least else None
+
     def policy(self, movement: int) -> Policy:
         """Return the policy of a movement in the frame of the object it is about; made once, when first asked for.
 
@@ -159,8 +174,26 @@ class ImitationModel:
         if not isinstance(learner, IncrementalLearner):
             raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
         demos = DemonstrationSet([*self.demonstrations, demonstration])
-        understanding = _frozen(learner.extend(demos, self.understanding))
+        understanding = frozen(learner.extend(demos, self.understanding))
         return type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
+
+    def most_informative(self, scenes: ArrayLike) -> Query:
+        """Say what to ask for next, and where, so that the answer teaches most.
+
+        Args:
+            scenes: Object positions of the scenes there are to choose from, shape (S, O, 2), m, table frame.
+
+        Returns:
+            Signs to make, copied from demonstrations, and the number of the scene.
+
+        Raises:
+            InvalidInputError: If there is no scene, one has not as many objects as the demonstrations, or the method
+                has no probabilities to tell.
+        """
+        places = finite_array(scenes, "scenes", (None, self.demonstrations.objects.shape[1], 2))
+        if not len(places):
+            raise InvalidInputError("scenes", "at least one", "none")
+        return choose_query(self.demonstrations, self.understanding, places)
 
     def explain(self) -> Reasons:
         """Say why: how sure each focus and movement is, what is ambiguous, what speaks for the word order.
@@ -176,13 +209,9 @@ class ImitationModel:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a ``.npz`` file without pickles, whole or not at all."""
-        arrays = {f"demonstrations__{k}": v for k, v in self.demonstrations.to_arrays().items()}
-        arrays |= {f"diagnostics__{k}": v for k, v in self.understanding.diagnostics.items()}
-        arrays |= {"labels": self.labels, "focus": self.focus, "word_order": np.array(self.word_order)}
-        if self.prototypes is not None:
-            points, _, offsets = flatten([(p, np.zeros(len(p))) for p in self.prototypes])
-            arrays |= {"prototypes": points, "prototype_offsets": offsets}
-        write_archive(path, KIND, VERSION, arrays, {"method": self.method, "policy": self.policy_kind})
+        write_model(
+            path, ModelParts(self.demonstrations, self.understanding, self.method, self.policy_kind, self.prototypes)
+        )
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:
@@ -191,60 +220,7 @@ class ImitationModel:
         Raises:
             FileFormatError: If the file is not a whole, sane model.
         """
-        arrays, meta = read_archive(path, KIND, VERSION)
-        where = os.fspath(path)
-        demos = DemonstrationSet.from_arrays(_part(arrays, "demonstrations__"), where)
-        try:
-            method, kind = str(meta["method"]), str(meta["policy"])
-            get_learner(method)
-            _check_policy(kind)
-            understanding = _checked_understanding(arrays, demos)
-            prototypes = None
-            if "prototypes" in arrays:
-                prototypes = prototype_points(cut(arrays["prototypes"], "prototypes", arrays["prototype_offsets"]))
-            model = cls(demos, understanding, method, kind, prototypes)
-            _ = model._reader  # what a reader lacks is a fault of the file, to be told now
-        except KeyError as error:
-            raise FileFormatError(where, f"an entry {error}", "none") from None
-        except InvalidInputError as error:
-            raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
-        except UnknownNameError as error:
-            raise FileFormatError(where, f"a known {error.what}", repr(error.name)) from None
-        return model
-
-
-def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
-    return {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
-
-
-def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet) -> Understanding:
-    count, frames, words = len(demos), demos.objects.shape[1], len(demos[0].signs)
-    labels = _indices(arrays["labels"], "labels", (count,), count)
-    if len(np.unique(labels)) != labels.max() + 1:
-        raise InvalidInputError("labels", "movements numbered without gaps", f"{labels[:8].tolist()}")
-    focus = _indices(arrays["focus"], "focus", (count,), frames)
-    order = _indices(arrays["word_order"], "word order", (2,), words)
-    diagnostics = _part(arrays, "diagnostics__")
-    return _frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), diagnostics))
-
-
-def _frozen(understanding: Understanding) -> Understanding:
-    """Make the arrays read-only."""
-    for array in (understanding.labels, understanding.focus, *understanding.diagnostics.values()):
-        array.setflags(write=False)
-    return understanding
-
-
-def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:
-    array = whole_numbers(value, where, shape)
-    if (array < 0).any() or (array >= count).any():
-        raise InvalidInputError(where, f"whole numbers from 0 to {count - 1}", f"{array[:8].tolist()}")
-    return array
-
-
-def _check_policy(kind: str) -> None:
-    if kind not in POLICY_KINDS:
-        raise UnknownNameError("policy kind", kind, POLICY_KINDS)
+        return cls(*read_model(path))
 
 
 def learn(
@@ -273,7 +249,7 @@ def learn(
     if not isinstance(demonstrations, DemonstrationSet):
         raise InvalidInputError("demonstrations", "a DemonstrationSet", type(demonstrations).__name__)
     learner = get_learner(method)
-    _check_policy(policy)
+    check_policy_kind(policy)
     strokes = None if prototypes is None else prototype_points(prototypes)
     understanding = learner.infer(demonstrations, strokes, make_generator(rng))
-    return ImitationModel(demonstrations, _frozen(understanding), method, policy, strokes)
+    return ImitationModel(demonstrations, frozen(understanding), method, policy, strokes)

@@ -22,6 +22,7 @@ DOCUMENTED = [
     "ImitationModel",
     "Movement",
     "Response",
+    "Query",
     "SignSpace",
     "Stroke",
     "StrokeLibrary",

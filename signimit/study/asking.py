@@ -22,14 +22,15 @@ from signimit.study.cells import Cell, People, cast_strokes
 SCENES = 8  # that there are to choose from, each time
 SAMPLES = 40  # strokes of each label by a synthetic person
 ASKED = 20  # demonstrations at the end of a lesson; with few pairs, twice each
-ASKING_CELLS = (
-    Cell(movements=3, objects=3, repetitions=1),
-    Cell(movements=5, objects=4, repetitions=1),
-    Cell(movements=5, objects=3, repetitions=1, condition="noise"),
-)
-REAL_ASKING_CELLS = tuple(
-    Cell(movements=m, objects=o, repetitions=1, people="real") for m, o in ((3, 3), (5, 4))
-)  # fmt: skip
+
+
+def asking_cells(real: bool) -> list[Cell]:
+    """Return the cells in which lessons are given."""
+    cells = [Cell(movements=m, objects=o, repetitions=1) for m, o in ((3, 3), (5, 4))]
+    cells.append(Cell(movements=5, objects=3, repetitions=1, condition="noise"))
+    if real:
+        cells += [Cell(movements=m, objects=o, repetitions=1, people="real") for m, o in ((3, 3), (5, 4))]
+    return cells
 
 
 class Question(NamedTuple):

@@ -149,19 +149,7 @@ def compose_session(cell: Cell, seed: int, people: People | None = None) -> Stud
     """
     rng = np.random.default_rng([seed, cell.movements, cell.objects, cell.repetitions])
     language = cell.language
-    words = (*language.focus_signs, *language.movement_signs, *language.filler_signs, *language.prototypes)
-    labels, crowd = tuple(dict.fromkeys(words)), cell.condition == "mixed"
-    if people is None:
-        writers = CROWD if crowd else 1
-        signs = synthetic_library(labels, writers=writers, samples=SAMPLES // writers, rng=rng)
-        movements = synthetic_library(language.movements, writers=writers, samples=SAMPLES, rng=rng)
-    elif crowd:
-        signs, movements = people
-    else:
-        signs = _somebody(people.signs, labels, rng)
-        movements = _somebody(people.movements, language.movements, rng)
-    if cell.condition == "noise":
-        signs, movements = wavering(signs, rng), wavering(movements, rng)
+    signs, movements = cast_strokes(cell, rng, people, SAMPLES)
     deck = StrokeDeck(signs)
     prototypes = compose_prototypes(language, deck, rng)
     demonstrations, truth = compose_demonstrations(language, deck, movements, rng)
@@ -172,6 +160,37 @@ def compose_session(cell: Cell, seed: int, people: People | None = None) -> Stud
         for pair in language.requests
     )
     return StudySession(demonstrations, prototypes, truth, commands)
+
+
+def cast_strokes(
+    cell: Cell, rng: np.random.Generator, people: People | None, samples: int
+) -> tuple[StrokeLibrary, StrokeLibrary]:
+    """Choose who signs and who moves in a session of a cell.
+
+    Args:
+        cell: Its kind.
+        rng: Decides who.
+        people: Whose strokes; synthetic people draw where there are none.
+        samples: How many strokes of each label a synthetic person draws.
+
+    Raises:
+        InvalidInputError: If nobody drew all that the language needs.
+    """
+    language, crowd = cell.language, cell.condition == "mixed"
+    words = (*language.focus_signs, *language.movement_signs, *language.filler_signs, *language.prototypes)
+    labels = tuple(dict.fromkeys(words))
+    if people is None:
+        writers = CROWD if crowd else 1
+        signs = synthetic_library(labels, writers=writers, samples=samples // writers, rng=rng)
+        movements = synthetic_library(language.movements, writers=writers, samples=samples, rng=rng)
+    elif crowd:
+        signs, movements = people
+    else:
+        signs = _somebody(people.signs, labels, rng)
+        movements = _somebody(people.movements, language.movements, rng)
+    if cell.condition == "noise":
+        signs, movements = wavering(signs, rng), wavering(movements, rng)
+    return signs, movements
 
 
 def _somebody(library: StrokeLibrary, labels: Sequence[str], rng: np.random.Generator) -> StrokeLibrary:

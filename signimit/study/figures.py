@@ -9,14 +9,14 @@ import numpy as np
 from signimit.exceptions import MissingDependencyError
 from signimit.study.scaling import STEPS, Measurement
 from signimit.study.scoring import Calibration
-from signimit.study.tables import Row
+from signimit.study.tables import LessonRow, Row
 
 try:
     from matplotlib.figure import Figure
 except ImportError:
     raise MissingDependencyError("matplotlib", "scripts", "Drawing figures") from None
 
-BLUE, GREY = "#0571b0", "#777777"
+BLUE, GREY, BROWN = "#0571b0", "#777777", "#b35806"
 
 
 def draw_cells(rows: Sequence[Row]) -> Figure:
@@ -54,11 +54,31 @@ def draw_calibration(calibration: Calibration) -> Figure:
     return figure
 
 
+def draw_lessons(rows: Sequence[LessonRow]) -> Figure:
+    """Draw how much is understood against the number of demonstrations, by what is asked for, a panel for each cell."""
+    cells = list(dict.fromkeys(row.cell for row in rows))
+    figure = Figure(figsize=(0.6 + 3.1 * len(cells), 3.4), layout="constrained")
+    panels = figure.subplots(1, len(cells), squeeze=False, sharey=True)[0]
+    for panel, cell in zip(panels, cells, strict=True):
+        names = dict.fromkeys(row.asking for row in rows)
+        for asking, colour, style in zip(names, (BLUE, BROWN, GREY), ("-", "--", ":"), strict=False):
+            mine = [row for row in rows if (row.cell, row.asking) == (cell, asking)]
+            count = [row.demonstrations for row in mine]
+            panel.plot(count, [100 * row.understood for row in mine], style, color=colour, label=asking)
+            low, high = [100 * row.low for row in mine], [100 * row.high for row in mine]
+            panel.fill_between(count, low, high, color=colour, alpha=0.15, linewidth=0)
+        panel.set(xlabel="demonstrations", ylim=(50, 101))
+        panel.set_title(cell, fontsize=9)
+    panels[0].set_ylabel("commands understood, %")
+    panels[0].legend(fontsize=8, frameon=False, title="asking", title_fontsize=8, loc="lower right")
+    return figure
+
+
 def draw_growth(measurements: Sequence[Measurement]) -> Figure:
     """Draw time and memory against the number of demonstrations."""
     figure = Figure(figsize=(9, 4), layout="constrained")
     panels = figure.subplots(1, 2)
-    for step, colour in zip(STEPS, (BLUE, GREY, "#b35806"), strict=True):
+    for step, colour in zip(STEPS, (BLUE, GREY, BROWN), strict=True):
         mine = [m for m in measurements if m.step == step]
         count = [m.demonstrations for m in mine]
         panels[0].loglog(count, [m.processor_seconds for m in mine], "o-", color=colour, label=step)

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from signimit.intervals import wilson_interval
 from signimit.study.records import OURS, Record
 
@@ -54,6 +56,50 @@ def markdown(rows: Sequence[Row]) -> str:
         shares = " | ".join(_share(mine[method]) for method in methods)
         lines.append(f"| {cell} | {mine[methods[0]].sessions} | {shares} |")
     return "\n".join(lines)
+
+
+class LessonRow(NamedTuple):
+    """How well commands were understood after so many demonstrations: mean over lessons and its 95 % interval."""
+
+    cell: str
+    asking: str
+    demonstrations: int
+    lessons: int
+    understood: float
+    low: float
+    high: float
+
+
+def tabulate_lessons(records: Sequence[Record]) -> list[LessonRow]:
+    """Average the accuracy of lessons for each cell, strategy and number of demonstrations."""
+    rows = []
+    for cell in dict.fromkeys(r["cell"] for r in records):
+        mine = [r for r in records if r["cell"] == cell]
+        for asking in mine[0]["curves"]:
+            curves = np.array([r["curves"][asking] for r in mine])
+            mean = curves.mean(axis=0)
+            half = 1.96 * curves.std(axis=0, ddof=min(1, len(curves) - 1)) / np.sqrt(len(curves))
+            rows += [
+                LessonRow(cell, asking, mine[0]["first"] + i, len(mine), *map(_to_share, (m, m - h, m + h)))
+                for i, (m, h) in enumerate(zip(mean, half, strict=True))
+            ]
+    return rows
+
+
+def _to_share(value: float) -> float:
+    return round(min(max(float(value), 0.0), 1.0), 4)
+
+
+def demonstrations_needed(rows: Sequence[LessonRow], share: float) -> list[tuple[str, str, int | None]]:
+    """Count for each cell and strategy the demonstrations from which on at least ``share`` is understood."""
+    found: list[tuple[str, str, int | None]] = []
+    for cell, asking in dict.fromkeys((row.cell, row.asking) for row in rows):
+        mine = [row for row in rows if (row.cell, row.asking) == (cell, asking)]
+        below = [row.demonstrations for row in mine if row.understood < share]
+        last = mine[-1].demonstrations
+        enough = max(below, default=mine[0].demonstrations - 1) + 1
+        found.append((cell, asking, enough if enough <= last else None))
+    return found
 
 
 def _share(row: Row) -> str:

@@ -153,6 +153,32 @@ def test_moving_the_objects_moves_the_policy_with_them(session: Session, model: 
     assert here.policy(hands[0]).shape == (2,)
 
 
+def test_a_doubtful_answer_is_declined_and_a_sure_one_given(session: Session, model: ImitationModel) -> None:
+    signs = session.say(0, 1)
+    sure = model.respond(signs, SCENE).confidence
+    given = model.respond_if_sure(signs, SCENE, sure)
+    assert given is not None
+    assert given[:2] == model.respond(signs, SCENE)[:2]
+    assert model.respond_if_sure(signs, SCENE, np.nextafter(sure, 1.0)) is None
+    for nonsense in (-0.1, 1.5, float("nan")):
+        with pytest.raises(InvalidInputError, match="least: expected a probability"):
+            model.respond_if_sure(signs, SCENE, nonsense)
+
+
+def test_a_query_is_made_of_signs_that_were_seen_and_asks_for_what_the_model_believes(session: Session) -> None:
+    model = session.learn(method="joint")
+    query = model.most_informative([SCENE, 2 * SCENE])
+    for word, t in enumerate(query.copied):
+        assert np.array_equal(query.signs[word], session.demonstrations[t].signs[word])
+    assert query.scene == 1
+    response = model.respond(query.signs, SCENE)
+    assert (response.movement, response.focus) == (query.movement, query.focus)
+    with pytest.raises(InvalidInputError, match="scenes: expected numbers of shape"):
+        model.most_informative(SCENE)
+    with pytest.raises(InvalidInputError, match="scenes: expected at least one"):
+        model.most_informative(np.empty((0, 3, 2)))
+
+
 def test_a_movement_is_its_members_seen_from_their_objects(session: Session, model: ImitationModel) -> None:
     for movement in model.movements:
         for t, path, times in zip(*movement, strict=True):

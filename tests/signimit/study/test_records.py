@@ -29,12 +29,12 @@ def test_a_line_torn_by_a_kill_is_cut_off_and_the_rest_kept(tmp_path: Path) -> N
 def test_what_was_run_is_not_run_again(tmp_path: Path) -> None:
     path, cell = tmp_path / "sessions.jsonl", Cell(movements=2, objects=2, repetitions=1)
     append_record(path, record(cell.name, 0, [1, 1, 1], [0, 0, 0]))
-    assert list(run_sessions([cell], [0], path, None, 1)) == []
+    assert list(run_sessions(run_session, [cell], [0], path, None, 1)) == []
     assert len(read_records(path)) == 1
 
 
 def test_a_session_becomes_a_line_of_json() -> None:
-    result = run_session(Cell(movements=2, objects=2, repetitions=1), 0)
+    result = run_session(Cell(movements=2, objects=2, repetitions=1), 0, None)
     assert json.loads(json.dumps(result))["verdicts"][OURS] == result["verdicts"][OURS]
     assert result["demonstrations"] == len(result["commands"]) == 4
 
