@@ -10,7 +10,6 @@ from mujoco.batch import Batch
 from numpy.typing import NDArray
 
 import signimit_assets
-from signimit_envs.physics_log import QuietLog
 from signimit_envs.rollout.planar_arm import PlanarArm
 from signimit_envs.scene import CONTROL_RATE, SUBSTEPS
 
@@ -39,20 +38,19 @@ class ManyArms:
     Arrays have their components first and the B arms last.
     """
 
-    def __init__(self, joints: Array, threads: int) -> None:
+    def __init__(self, model: mujoco.MjModel, joints: Array, threads: int = 0) -> None:
         """Put resting arms in their postures.
 
         Args:
+            model: The arm, or the scene with it.
             joints: Joint angles, shape (n, B), rad.
             threads: How many threads compute the physics, 0 for all processors.
         """
-        model = compile_arm()
         self._arm = PlanarArm.from_model(model)
         self._batch = Batch(model, joints.shape[1], threads)
         self._qpos, self._qvel, self._ctrl = (self._batch.bind(name).T for name in ("qpos", "qvel", "ctrl"))
         self._qpos[:] = joints
         self._batch.forward()
-        self._quiet_log = QuietLog()
 
     @property
     def joints(self) -> Array:
@@ -70,8 +68,7 @@ class ManyArms:
         before = self._qpos.copy()
         room = (self._arm.lower - before) * CONTROL_RATE, (self._arm.upper - before) * CONTROL_RATE
         np.clip(velocities, *room, out=self._ctrl)
-        with self._quiet_log:
-            self._batch.step(nstep=SUBSTEPS)
+        self._batch.step(nstep=SUBSTEPS)
         sound: NDArray[np.bool_] = ~self._batch.warning[..., 1].any(axis=1)
         if not sound.all():
             self._qpos[:, ~sound], self._qvel[:, ~sound] = before[:, ~sound], 0.0

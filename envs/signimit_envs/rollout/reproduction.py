@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError
 from signimit.validation import finite_array, item_list
+from signimit_envs.physics_log import QuietLog
 from signimit_envs.rollout.flock import Flock, Policy
 from signimit_envs.rollout.hand_control import ManyHandsController
 from signimit_envs.rollout.physics import ManyArms, compile_arm
@@ -60,23 +61,29 @@ def reproduce_many(policies: Sequence[Policy], hands: ArrayLike, seconds: float,
     starts, steps = _checked_hands(hands, len(movers)), _checked_steps(seconds)
     if threads < 0:
         raise InvalidInputError("threads", "0 or more", f"{threads}")
-    flock, controller = Flock(movers), ManyHandsController(compile_arm())
-    arms = ManyArms(controller.postures_at(starts.T)[0], threads)
-    tracks = _empty_tracks(len(movers), steps)
-    joints, going = arms.joints, np.ones(len(movers), dtype=bool)
+    model, flock = compile_arm(), Flock(movers)
+    controller = ManyHandsController(model)
+    arms = ManyArms(model, controller.postures_at(starts.T)[0], threads)
+    with QuietLog():
+        return _run(flock, controller, arms, steps)
+
+
+def _run(flock: Flock, controller: ManyHandsController, arms: ManyArms, steps: int) -> HandTracks:
+    joints = arms.joints
+    tracks = _empty_tracks(joints.shape[1], steps)
     for step in range(steps + 1):
         here = np.ascontiguousarray(controller.arm.hands(joints).T)
         tracks.paths[:, step], tracks.joints[:, step] = here, joints.T
         if step == steps:
             break
-        ahead = _displacements(flock.velocities(here))
+        ahead = displacements(flock.velocities(here))
         tracks.commanded[:, step] = here + ahead
-        joints, going = arms.simulate(controller.solve(joints, ahead.T, 1.0 / CONTROL_RATE).velocities)
-        tracks.steps[going] += 1
+        joints, sound = arms.simulate(controller.solve(joints, ahead.T, 1.0 / CONTROL_RATE).velocities)
+        tracks.steps[sound] += 1
     return tracks
 
 
-def _displacements(velocities: Array) -> Array:
+def displacements(velocities: Array) -> Array:
     """Return where a control step is to take each hand from where it is, shape (B, 2), m.
 
     A velocity beyond the arm's is slowed down as a whole, so that its direction stays.

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import count
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +17,7 @@ from signimit.learning import learn
 from signimit_envs import TabletopHandEnv, reproduce
 from signimit_envs.casting import cast_people
 from signimit_envs.rollout import HandTracks, reproduce_many
+from signimit_envs.rollout.physics import ManyArms
 from signimit_envs.session import Session, SessionPlan, compose_session
 
 SECONDS = 4.0
@@ -122,6 +125,27 @@ def test_no_time_leaves_the_hands_where_they_were_put() -> None:
     tracks = reproduce_many([lambda hand: hand], [[0.1, 0.2]], 0.0)
     np.testing.assert_allclose(tracks.paths, [[[0.1, 0.2]]], atol=1e-6)
     assert tracks.commanded.shape == (1, 0, 2)
+
+
+def test_a_reproduction_whose_physics_fails_ends_there_and_the_others_go_on(
+    policies: list[TablePolicy], hands: Array, tracks: HandTracks, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)  # where MuJoCo would write its log
+    whole, calls = ManyArms.simulate, count()
+
+    def failing(arms: ManyArms, velocities: Array) -> Any:
+        if next(calls) == 20:
+            arms._qvel[:, 3] = np.nan
+        return whole(arms, velocities)
+
+    monkeypatch.setattr(ManyArms, "simulate", failing)
+    broken = reproduce_many(policies, hands, SECONDS)
+    others = np.arange(len(hands)) != 3
+    assert broken.steps.tolist() == [200, 200, 200, 20, 200, 200, 200, 200, 200]
+    np.testing.assert_array_equal(broken.paths[others], tracks.paths[others])
+    np.testing.assert_array_equal(broken.paths[3, :21], tracks.paths[3, :21])
+    np.testing.assert_array_equal(broken.paths[3, 21:], np.tile(tracks.paths[3, 20], (180, 1)))
+    assert not list(tmp_path.iterdir())
 
 
 def resting(hand: Array) -> Array:
