@@ -150,23 +150,8 @@ class LiveArm:
         """Push the hand for a moment, so that it drifts with about a velocity, shape (2,), m/s."""
         self._inbox.put(lambda: self._shove(velocity))
 
-    def _live(self) -> None:
-        due = time.perf_counter()
-        while not self._stop.is_set():
-            try:
-                self._step()
-            except Exception:  # whatever it is, an arm that rests is better than a thread that died
-                _log.exception("the arm failed and rests")
-                self._errand = None
-            due += 1.0 / CONTROL_RATE
-            early = due - time.perf_counter()
-            if early > 0:
-                self._stop.wait(early)
-            elif -early > _FARTHEST_BEHIND:
-                self._lost, due = self._lost - early, due - early
-
-    def _step(self) -> None:
-        """Do what was commanded, then one control step."""
+    def step(self) -> None:
+        """Do what was commanded, then one control step. The arm's own thread calls this, once the arm is started."""
         while not self._inbox.empty():
             self._inbox.get()()
         env = self._env
@@ -186,6 +171,21 @@ class LiveArm:
         self._look(observation)
         if self._errand is not None:
             self._remember()
+
+    def _live(self) -> None:
+        due = time.perf_counter()
+        while not self._stop.is_set():
+            try:
+                self.step()
+            except Exception:  # whatever it is, an arm that rests is better than a thread that died
+                _log.exception("the arm failed and rests")
+                self._errand = None
+            due += 1.0 / CONTROL_RATE
+            early = due - time.perf_counter()
+            if early > 0:
+                self._stop.wait(early)
+            elif -early > _FARTHEST_BEHIND:
+                self._lost, due = self._lost - early, due - early
 
     def _look(self, observation: dict[str, Any]) -> None:
         self._state = LiveState(
