@@ -19,7 +19,7 @@ from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
 from signimit.output import whole_files
 
-OUT = Path("results/benchmark")
+OUT = Path("out/benchmark")
 MANY = 10_000  # sessions whose cost is told
 
 
