@@ -24,6 +24,7 @@ def main(
     policy: str = DEFAULT_POLICY,
     seed: int = 0,
     out: Path = Path("model.npz"),
+    why: Path | None = None,
 ) -> None:
     """Learn from demonstrations, and write what was understood to a model file.
 
@@ -35,12 +36,17 @@ def main(
         policy: Kind of policy for the responses.
         seed: Of what the method draws at random.
         out: Model file to write.
+        why: Picture of the reasons to write, with the default method: probabilities, lexicon, evidence.
     """
     demos = DemonstrationSet.load(demonstrations)
     library = None if prototypes is None else StrokeLibrary.load(prototypes)
     strokes = None if library is None else [library.select(label)[0] for label in labels]
     model = learn(demos, strokes, method, policy, seed)
-    print(model.summary())
+    print(model.summary() if why is None else model.explain())
+    if why is not None:
+        from signimit.explanation_figures import draw_explanation
+
+        draw_explanation(model).savefig(why, dpi=110)
     model.save(out)
     print(f"The model is in {out}.")
 

@@ -49,7 +49,7 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     for column, t in enumerate(order):
         demonstration = demonstrations[int(t)]
         for word, sign in enumerate(demonstration.signs):
-            _draw_sign(axes[word, column], sign)
+            draw_sign(axes[word, column], sign)
         for i, place in enumerate(demonstration.objects):
             panel = axes[words + i, column]
             _draw_about(panel, [demonstration.hand - place], i, _HALF_VIEW)
@@ -59,7 +59,7 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     for word in range(words):
         axes[word, 0].set_ylabel(f"sign {word + 1}", fontsize=9)
     for i in range(objects):
-        axes[words + i, 0].set_ylabel(f"seen from {object_name(i)}", fontsize=9, color=_colour(i))
+        axes[words + i, 0].set_ylabel(f"seen from {object_name(i)}", fontsize=9, color=object_colour(i))
     figure.suptitle(
         f"{len(order)} demonstrations, sorted by the movement found; the object found is framed. "
         f"Panels are {2 * _HALF_VIEW:.1f} m wide, the hand starts at the dot.",
@@ -84,8 +84,8 @@ def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> F
     for i in range(objects):
         for j in range(objects):
             image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, top)
-        axes[i, 0].set_ylabel(f"t seen from {object_name(i)}", color=_colour(i))
-        axes[0, i].set_title(f"k seen from {object_name(i)}", color=_colour(i), fontsize=10)
+        axes[i, 0].set_ylabel(f"t seen from {object_name(i)}", color=object_colour(i))
+        axes[0, i].set_title(f"k seen from {object_name(i)}", color=object_colour(i), fontsize=10)
     figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.6, label="similarity γ, 1/rad²")
     figure.suptitle("Similarity of demonstrations t (rows) and k (columns) in each pair of frames", fontsize=11)
     return figure
@@ -137,7 +137,7 @@ def draw_reproductions(
     for row, name in enumerate(movements):
         axes[row, 0].set_ylabel(name, fontsize=11)
     for focus in range(objects):
-        axes[0, focus].set_title(f"about {object_name(focus)}", color=_colour(focus), fontsize=11)
+        axes[0, focus].set_title(f"about {object_name(focus)}", color=object_colour(focus), fontsize=11)
     count = sum(map(len, paths.values()))
     width = 2 * (_HALF_VIEW + 0.05)
     figure.suptitle(
@@ -196,7 +196,8 @@ def _panels(
     return figure, axes
 
 
-def _draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
+def draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
+    """Draw a sign, shape (T_s, 2), as large as the panel."""
     centred = sign - (sign.max(axis=0) + sign.min(axis=0)) / 2
     panel.plot(*(centred / np.abs(centred).max()).T, color="#1b1b1b", linewidth=1.3)
     panel.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), aspect="equal")
@@ -211,7 +212,7 @@ def _draw_about(panel: Axes, paths: Paths, focus: int, half_view: float, styles:
         panel.plot(*path.T, styles[number % len(styles)], color=colour, linewidth=0.9, alpha=0.85)
         panel.plot(*path[0], ".", color=colour, markersize=6)
     marker = OBJECT_MARKERS[focus % len(OBJECT_MARKERS)]
-    panel.plot(0, 0, marker, color=_colour(focus), markersize=9, markeredgecolor="white", zorder=3)
+    panel.plot(0, 0, marker, color=object_colour(focus), markersize=9, markeredgecolor="white", zorder=3)
     panel.set(xlim=(-half_view, half_view), ylim=(-half_view, half_view), aspect="equal")
 
 
@@ -240,7 +241,8 @@ def _frame(panel: Axes) -> None:
         spine.set(color=FRAME, linewidth=2.5)
 
 
-def _colour(focus: int) -> str:
+def object_colour(focus: int) -> str:
+    """Return the colour of an object."""
     return OBJECT_COLOURS[focus % len(OBJECT_COLOURS)]
 
 

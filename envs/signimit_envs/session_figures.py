@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit import figures
+from signimit.explanation_figures import draw_explanation
 from signimit.grouping import group_movements
 from signimit.similarity import maximum_similarities, policy_similarities
 from signimit_envs.session import Reproduction, SessionResult
@@ -17,7 +18,7 @@ DOTS_PER_INCH = 130
 
 
 def write_figures(result: SessionResult, folder: Path) -> None:
-    """Write figures 4 to 7 and the memberships as PNG."""
+    """Write figures 4 to 7 and the memberships as PNG, and why it was so understood where the method can tell."""
     model, language = result.model, result.session.plan.language
     distances = session_distances(result)
     similarity = maximum_similarities(distances)
@@ -37,6 +38,8 @@ def write_figures(result: SessionResult, folder: Path) -> None:
         ),
         "memberships": figures.draw_memberships(history, model.labels),
     }
+    if "focus_probability" in model.diagnostics:
+        drawn["why"] = draw_explanation(model)
     for name, figure in drawn.items():
         # Without the date and version of the software the same session gives the same bytes.
         figure.savefig(folder / f"{name}.png", dpi=DOTS_PER_INCH, metadata={"Software": None})
