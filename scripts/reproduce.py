@@ -35,7 +35,8 @@ def main(
 ) -> None:
     """Watch 12 demonstrations, learn, and obey 36 commands with a simulated arm, four for each pair of signs.
 
-    Writes results.json, the paper's figures 4 to 7, the memberships, grid.mp4, story.mp4, and with --method joint why.png.
+    Writes results.json, the paper's figures 4 to 7, the memberships, grid.mp4 and story.mp4; with --method joint also
+    why.png, the reasons.
 
     Args:
         out: Folder for the results.

@@ -86,8 +86,34 @@ offer_gl() {
     has_gl || say "no OpenGL library: going on without video; to have it, type: sudo apt-get install libosmesa6 libegl1"
 }
 
-# Makes the environment for "run" or "test" unless a stamp says that it is there. Stamps are written last, so that a
-# set-up that broke off is done again; an environment for tests runs programs too.
+# A browser is wanted by the tests of the studio only; they skip without one.
+offer_browser() {
+    for name in chromium chromium-browser google-chrome; do
+        if command -v "$name" >/dev/null 2>&1; then return; fi
+    done
+    if can_apt; then
+        say "installing a browser for the tests of the studio"
+        apt_install chromium || true
+    fi
+    command -v chromium >/dev/null 2>&1 || say "no Chromium: the studio's page goes untested; to have it, type: sudo apt-get install chromium"
+}
+
+# What a program needs beside the core.
+purpose_of() {
+    case $1 in test | studio) printf '%s' "$1" ;; study | benchmark) printf 'study' ;; *) printf 'run' ;; esac
+}
+
+extras_for() {
+    case $1 in
+        run) printf 'scripts,strokes' ;;
+        study) printf 'scripts,strokes,study,dask' ;;
+        studio) printf 'studio' ;;
+        test) printf 'scripts,strokes,study,studio,minari,lerobot,dask,test' ;;
+    esac
+}
+
+# Makes the environment for a purpose unless a stamp says that it is there. Stamps are written last, so that a set-up
+# that broke off is done again; an environment for one purpose runs plain programs too, one for tests all.
 ensure_environment() {
     python=$(find_python)
     wanted=$(wanted_stamp "$python")
@@ -105,16 +131,17 @@ ensure_environment() {
 is_ready() { [ -x "$venv/bin/python" ] && [ "$(cat "$venv/.ready-for-$1" 2>/dev/null)" = "$wanted" ]; }
 
 set_up() {
-    say "setting up $venv, once; this takes a minute or two"
-    rm -f "$venv"/.ready-for-*
+    say "setting up $venv for this, once; this takes a minute or two"
     make_venv "$python"
-    extras=scripts,strokes
-    if [ "$1" = test ]; then extras=$extras,test; fi
-    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --editable "${root}[$extras]" </dev/null ||
+    "$venv/bin/python" -m pip install --quiet --disable-pip-version-check --editable "${root}[$(extras_for "$1")]" </dev/null ||
         fail "could not install the packages, pip's reason stands above; once it is mended the same command goes on"
     offer_gl
-    if [ "$1" = test ]; then printf '%s\n' "$wanted" >"$venv/.ready-for-test"; fi
-    printf '%s\n' "$wanted" >"$venv/.ready-for-run"
+    purposes="run $1"
+    if [ "$1" = test ]; then
+        offer_browser
+        purposes="run study studio test"
+    fi
+    for purpose in $purposes; do printf '%s\n' "$wanted" >"$venv/.ready-for-$purpose"; done
 }
 
 [ $# -gt 0 ] || fail "say what to run: sh scripts/run.sh NAME [options], NAME one of: test$(programs)"
@@ -128,5 +155,5 @@ if [ "$what" = test ]; then
 fi
 case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
 [ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test$(programs)"
-ensure_environment run
+ensure_environment "$(purpose_of "$what")"
 exec "$venv/bin/python" "$root/scripts/$what.py" "$@"
