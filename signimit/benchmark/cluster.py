@@ -42,7 +42,8 @@ def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Eng
         with _client(scheduler, timeout) as client:
             _check_workers(client, scheduler, timeout)
             batches, room = batches_of(tasks, batch), WAITING * sum(client.nthreads().values())
-            under_way = distributed.as_completed([_submit(client, b) for b in islice(batches, room)])
+            first = [_submit(client, b) for b in islice(batches, room)]
+            under_way = distributed.as_completed(first, loop=client.loop)
             for future in under_way:
                 yield from _result(future, scheduler)
                 for following in islice(batches, 1):

@@ -25,6 +25,7 @@ from signimit.exceptions import FileFormatError
 from signimit.records import Record, append_record, read_records
 
 FORMAT, VERSION = "signimit benchmark results", 1
+NEEDED = frozenset({"split", "seed", "code", "demonstrations", "obeyed", "misfit", "seconds"})
 Summary = dict[str, Any]
 
 
@@ -75,6 +76,10 @@ class ResultFile(NamedTuple):
             if found.get(key) != value:
                 expected = f"{key} {_short(value)}; give another --out, or move the file away"
                 raise FileFormatError(str(self.records), expected, _short(found.get(key)))
+        for number, record in enumerate(lines[1:], 2):
+            if not set(record) >= NEEDED or record["split"] not in SPLITS:
+                where = f"{self.records}: line {number}"
+                raise FileFormatError(where, f"a record with {', '.join(sorted(NEEDED))}", _short(sorted(record)))
         unique = {(r["split"], r["seed"]): r for r in lines[1:]}
         order = list(SPLITS)
         return sorted(unique.values(), key=lambda r: (order.index(r["split"]), r["seed"]))

@@ -1,0 +1,110 @@
+"""A session from a task to a record."""
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from signimit.benchmark import entries
+from signimit.benchmark.protocol import Entrant, Kit, Observation, Oracle, Truth
+from signimit.benchmark.registry import EntrantReference, get_entrant
+from signimit.benchmark.running import Task, run_task
+from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import InvalidInputError
+from signimit.inference import WordOrder
+from signimit.understanding import Understanding
+
+HANDED: list[tuple[Any, ...]] = []
+
+
+class Listener:
+    """Keeps what it is handed, to the last item."""
+
+    def __init__(self, *handed: Any) -> None:
+        HANDED.append(handed)
+        self.drawn = float(handed[0].rng.random())
+
+    def observe(self, demonstrations: DemonstrationSet) -> None:
+        HANDED.append((demonstrations,))
+
+    def begin(self, signs: Any, objects: Any) -> None:
+        HANDED.append((signs, objects))
+
+    def act(self, observation: Observation) -> Any:
+        return 0.1 * self.drawn, 0.0
+
+
+class Teller(Listener):
+    """Says what it was told, and draws nothing."""
+
+    def __init__(self, kit: Kit, truth: Truth) -> None:
+        super().__init__(kit, truth)
+        language = truth.shown.language
+        order = WordOrder(language.focus_word, language.movement_word)
+        self.understanding = Understanding(truth.shown.movement, truth.shown.focus, order, {})
+
+
+@pytest.fixture(autouse=True)
+def registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    added = {
+        "listener": Entrant(name="listener", title="", make=Listener),
+        "hungry": Entrant(name="hungry", title="", make=Listener, demonstrations=30),
+        "teller": Oracle(name="teller", title="", make=Teller),
+    }
+    monkeypatch.setattr(entries, "ENTRANTS", added)
+    HANDED.clear()
+    yield
+    get_entrant.cache_clear()
+
+
+def ran(name: str, split: str = "few", seed: int = 0) -> dict[str, Any]:
+    return run_task(Task(EntrantReference(name), split, seed))
+
+
+def test_an_ordinary_entry_is_handed_prototypes_a_generator_and_what_can_be_seen() -> None:
+    ran("listener")
+    made, observed, *begun = HANDED
+    assert [type(item) for item in made] == [Kit]
+    assert Kit._fields == ("prototypes", "rng")
+    assert [type(item) for item in observed] == [DemonstrationSet]
+    assert len(begun) == 9
+    assert all(len(signs) == 2 and objects.shape == (3, 2) for signs, objects in begun)
+
+
+def test_an_oracle_is_told_what_was_shown_and_what_will_be_asked() -> None:
+    record = ran("teller")
+    _, truth = HANDED[0]
+    assert len(truth.shown.requests) == 6
+    assert len(truth.asked) == 9
+    assert (record["groups"], record["focus"], record["order"]) == (1.0, 1.0, 1.0)
+
+
+def test_stages_that_an_entry_does_not_tell_are_not_scored() -> None:
+    assert not {"groups", "focus", "order", "read"} & set(ran("listener"))
+    assert "read" not in ran("teller")
+
+
+def test_a_record_depends_on_its_task_alone() -> None:
+    first, again, other = ran("listener"), ran("listener"), ran("listener", seed=1)
+    for record in (first, again, other):
+        assert set(record.pop("seconds")) == {"observe", "act"}
+    assert json.loads(json.dumps(first)) == again
+    assert first["session"] != other["session"]
+    assert first["misfit"] != other["misfit"]
+
+
+def test_who_needs_more_demonstrations_gets_more_and_the_record_says_so() -> None:
+    assert ran("hungry")["demonstrations"] == len(HANDED[1][0]) == 30
+    assert ran("listener")["demonstrations"] == 6
+
+
+def test_families_are_told_where_there_are_any() -> None:
+    assert sorted(ran("listener", "counterfactual")["families"]) == sorted([0, 1, 2] * 4)
+    assert "families" not in ran("listener")
+
+
+def test_a_mistake_names_the_entry_the_split_and_the_session(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Listener, "act", lambda self, observation: (float("nan"), 0.0))
+    with pytest.raises(InvalidInputError, match="entry listener, split few, session 3: act at step 0: expected a fini"):
+        ran("listener", seed=3)
