@@ -1,0 +1,109 @@
+"""Everything that was measured, for people and for programs."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from signimit_envs.measurements import installed_versions
+from signimit_envs.scene import SUBSTEPS
+from signimit_envs.throughput.batches import Agreement, BatchSpeed, compare_paths, measure_batches
+from signimit_envs.throughput.parts import Part, measure_parts
+from signimit_envs.throughput.vector_envs import WayToStep, measure_vector_envs
+from signimit_envs.throughput.work import ThroughputPlan, compose_work
+
+_COMPARED = 36  # reproductions in both ways, 10 s each
+_COMPARED_SECONDS = 10.0
+
+
+class Throughput(NamedTuple):
+    """What was measured: one row each for a batch, a part of a step, a way to step environments."""
+
+    batches: list[BatchSpeed]
+    agreement: Agreement
+    parts: list[Part]
+    vector_envs: list[WayToStep]
+
+
+def measure_throughput(plan: ThroughputPlan) -> Throughput:
+    """Measure all of a plan."""
+    work = compose_work(max(*plan.batches, plan.parts_of, _COMPARED), plan.seed)
+    return Throughput(
+        measure_batches(work, plan),
+        compare_paths(work.first(_COMPARED), _COMPARED_SECONDS),
+        measure_parts(work.first(plan.parts_of), plan.seconds, plan.turns),
+        measure_vector_envs(plan.envs, plan.seconds, plan.turns),
+    )
+
+
+def report(measured: Throughput, plan: ThroughputPlan, command: str) -> dict[str, Any]:
+    """Say in what JSON can say what was measured, how and with what."""
+    return {
+        "command": command,
+        "processors": os.cpu_count(),
+        "versions": dict(installed_versions()),
+        "plan": {name: getattr(plan, name) for name in ("seconds", "turns", "parts_of", "envs", "seed")},
+        "batches": [row._asdict() for row in measured.batches],
+        "agreement": measured.agreement._asdict(),
+        "parts": [row._asdict() for row in measured.parts],
+        "vector environments": [row._asdict() for row in measured.vector_envs],
+    }
+
+
+def markdown(measured: Throughput, plan: ThroughputPlan, command: str) -> str:
+    """Return a page with a table of each kind."""
+    versions = ", ".join(f"{name} {version}" for name, version in installed_versions().items())
+    compared, gap, same = measured.agreement
+    return f"""# Throughput
+
+Made by `{command}` on {os.cpu_count()} processors.
+Versions: {versions}.
+
+All numbers are ratios of times taken in turns within one run, medians over {plan.turns} turns of {plan.seconds:g} s of
+simulated time. What else the machine did is in those by the clock; those by computing time, of all threads together,
+hardly depend on it.
+
+## Many reproductions at once
+
+`signimit_envs.rollout.reproduce_many` beside `signimit_envs.reproduce` with one `TabletopHandEnv`: learned policies,
+inverse kinematics and {SUBSTEPS} physics steps a control step in both, scenes set up within the time.
+
+{_batch_table(measured.batches)}
+
+Of {compared} reproductions of {_COMPARED_SECONDS:g} s done in both ways, {same} have the same verdict (movement and
+object); the hands are never more than {gap * 1e3:.2g} mm apart.
+
+## The parts of a control step
+
+Computing time in per cent of a control step of `reproduce`, each part repeated by itself.
+
+{_part_table(measured.parts, plan.parts_of)}
+
+## {plan.envs} environments side by side
+
+Time by the clock for the same steps of `signimit/TabletopHand-v0`, resets not counted.
+
+{_way_table(measured.vector_envs)}
+"""
+
+
+def _batch_table(rows: Sequence[BatchSpeed]) -> str:
+    head = "| at once | threads | reproductions a second | least of all turns | the same by computing time |\n"
+    lines = [
+        f"| {r.batch} | {r.threads or 'all'} | {r.faster:.1f} x | {r.lowest:.1f} x | {r.computing:.1f} x |"
+        for r in rows
+    ]
+    return "\n".join([head + "|---|---|---|---|---|", *lines])
+
+
+def _part_table(rows: Sequence[Part], count: int) -> str:
+    head = f"| | one hand | each of {count} hands |\n|---|---|---|"
+    lines = [
+        f"| {r.name} | {100 * r.alone:.1f} | {'' if r.together is None else f'{100 * r.together:.1f}'} |" for r in rows
+    ]
+    return "\n".join([head, *lines])
+
+
+def _way_table(rows: Sequence[WayToStep]) -> str:
+    return "\n".join(["| | time |\n|---|---|", *(f"| {r.name} | {r.time:.2f} |" for r in rows)])
