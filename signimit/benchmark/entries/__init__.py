@@ -1,18 +1,35 @@
-"""Entries of the benchmark by name, in the order of the leaderboard."""
+"""Entries of the benchmark by name, in the order of the leaderboard.
+
+What a learner needs that is not installed with signimit is imported when its entry is made.
+"""
 
 from __future__ import annotations
 
 from signimit.benchmark.entries.chance import Chance
 from signimit.benchmark.entries.imitator import learner_entrant
+from signimit.benchmark.entries.knn_cloning import NearestNeighbourCloning
 from signimit.benchmark.entries.oracles import AllKnowing, oracle_focus, oracle_grouping
 from signimit.benchmark.entries.replay import Replay
-from signimit.benchmark.protocol import Entrant, Oracle
+from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle
+
+
+def _perceptron(kit: Kit) -> Entry:
+    from signimit.benchmark.entries.mlp_cloning import PerceptronCloning
+
+    return PerceptronCloning(kit)
+
 
 _ALL: tuple[Entrant | Oracle, ...] = (
     learner_entrant("joint", "our default: everything inferred together, path-following", "joint"),
     learner_entrant("paper", "the paper: Algorithm 1 as it works, its k-NN policy", "paper", "knn"),
     learner_entrant("paper-path", "the paper's inference, path-following", "paper"),
     learner_entrant("paper-literal", "the paper with Algorithm 1 as printed", "paper-literal", "knn"),
+    Entrant(
+        name="clone-knn",
+        title="behaviour cloning: the nearest moments, seen from all objects",
+        make=lambda kit: NearestNeighbourCloning(),
+    ),
+    Entrant(name="clone-mlp", title="behaviour cloning: a perceptron from signs, objects and hand", make=_perceptron),
     Entrant(name="replay", title="the demonstration with the nearest signs, again", make=lambda kit: Replay()),
     Oracle(name="oracle-grouping", title="paper-path, told the groups", make=oracle_grouping),
     Oracle(name="oracle-focus", title="paper-path, told the foci", make=oracle_focus),
