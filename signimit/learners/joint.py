@@ -32,6 +32,7 @@ from signimit.learners.search import (
     first_guesses,
     improve_explanation,
     merge_groups,
+    pairs_of_equals,
 )
 from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
 from signimit.traces import make_trace, trace_distances
@@ -162,7 +163,9 @@ def _settle(
     """Alternate between the explanation and the scales it implies."""
     explanation = improve_explanation(weighing.evidence(order, scale), *guess)
     for _ in range(_ROUNDS):
-        scale = _implied_scale(weighing.seen, order, explanation)
+        last, scale = scale, _implied_scale(weighing.seen, order, explanation)
+        if scale == last:
+            break
         explanation = improve_explanation(weighing.evidence(order, scale), explanation.labels, explanation.focus)
     prior = DRAWINGS.log_prior(scale.drawings) + SIGNS.log_prior(scale.signs)
     score = explanation.score + prior + _idle_words_score(weighing, order, scale)
@@ -181,10 +184,9 @@ def _idle_words_score(weighing: Weighing, order: WordOrder, scale: Scale) -> flo
 
 def _implied_scale(seen: Seen, order: WordOrder, explanation: Explanation) -> Scale:
     labels, focus, _ = explanation
-    t, k = np.triu_indices(len(labels), 1)
-    one_movement, one_focus = labels[t] == labels[k], focus[t] == focus[k]
-    drawings = seen.drawings[t, k, focus[t], focus[k]][one_movement]
-    signs = np.concatenate([seen.signs[order.movement][t, k][one_movement], seen.signs[order.focus][t, k][one_focus]])
+    t, k = pairs_of_equals(labels)
+    drawings = seen.drawings[t, k, focus[t], focus[k]]
+    signs = np.concatenate([seen.signs[order.movement][t, k], seen.signs[order.focus][pairs_of_equals(focus)]])
     return Scale(DRAWINGS.posterior_mean(drawings, len(labels)), SIGNS.posterior_mean(signs, len(labels)))
 
 
