@@ -11,9 +11,11 @@ from signimit import demonstrations as demonstration_files
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.formats.csv_demonstrations import HANDS, read_csv_demonstrations, write_csv_demonstrations
-from signimit_envs.recording import csv_recordings, minari_store
+from signimit_envs.recording import csv_recordings, lerobot_layout, minari_store
 from signimit_envs.recording.csv_recordings import read_csv_recording, write_csv_recording
 from signimit_envs.recording.episodes import Recording
+from signimit_envs.recording.lerobot_demonstrations import read_lerobot_demonstrations, write_lerobot_demonstrations
+from signimit_envs.recording.lerobot_recordings import read_lerobot_recording, write_lerobot_recording
 from signimit_envs.recording.minari_demonstrations import read_minari_demonstrations, write_minari_demonstrations
 from signimit_envs.recording.minari_recordings import read_minari_recording, write_minari_recording
 from signimit_envs.recording.storage import load_recording, save_recording
@@ -66,6 +68,13 @@ FORMATS = {
         write_minari_recording,
         write_minari_demonstrations,
         (minari_store.MARKER,),
+    ),
+    "lerobot": Format(
+        read_lerobot_recording,
+        read_lerobot_demonstrations,
+        write_lerobot_recording,
+        write_lerobot_demonstrations,
+        (lerobot_layout.INFO,),
     ),
 }
 

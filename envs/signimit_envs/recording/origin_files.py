@@ -37,13 +37,16 @@ def read_origin(folder: Path, kind: str, version: int) -> tuple[RecordingOrigin,
     where = os.fspath(folder / HEADER)
     try:
         header = json.loads((folder / HEADER).read_bytes())
-        meta, found, number = dict(header["origin"]), header["kind"], int(header["version"])
+        found, number = header["kind"], int(header["version"])
+        if found != kind or number > version:
+            raise FileFormatError(where, f"a {kind} of version <= {version}", f"{found} version {number}")
+        meta = dict(header["origin"])
         names = [str(name) for name in meta.pop("assets")]
         xml = (folder / MODEL).read_bytes().decode("utf-8")
+    except FileFormatError:
+        raise
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise FileFormatError(where, f"a whole {kind} of signimit", f"{error!r:.120}") from None
-    if found != kind or number > version:
-        raise FileFormatError(where, f"a {kind} of version <= {version}", f"{found} version {number}")
     for name in names:
         if name != Path(name).name or name in (HEADER, MODEL) or len(names) > _MAX_FILES:
             raise FileFormatError(where, "assets beside it", f"{name!r:.80}")

@@ -26,6 +26,12 @@ def place_for(name: str, what: str, folder: Path) -> str:
     return place if name == "minari" else str(folder / place)
 
 
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out the videos, which take long and are tested elsewhere."""
+    monkeypatch.setattr("signimit_envs.recording.lerobot_recordings._drawable", lambda recording: [])
+
+
 def test_the_way_through_every_format_changes_nothing(
     recording: Recording, demonstrations: si.DemonstrationSet, tmp_path: Path, minari_root: Path, assert_same: Same
 ) -> None:
