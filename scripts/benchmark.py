@@ -14,13 +14,12 @@ from signimit.benchmark.frozen import SESSIONS
 from signimit.benchmark.registry import entrant_names, refer_to
 from signimit.benchmark.results import ResultFile, read_summaries, run_missing, write_summary
 from signimit.benchmark.splits import choose_splits
-from signimit.benchmark.tables import leaderboard, overview
+from signimit.benchmark.tables import MANY, hours_for, leaderboard, overview
 from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
 from signimit.output import whole_files
 
 OUT = Path("out/benchmark")
-MANY = 10_000  # sessions whose cost is told
 
 
 def main(
@@ -84,7 +83,7 @@ def run(file: ResultFile, splits: list[str], seeds: range, engine: Engine) -> No
     print(overview([summary]))
     found = summary["splits"].values()
     cost = sum(s["seconds"] for s in found) / sum(s["sessions"] for s in found)
-    print(f"A session takes {cost:.2f} s of a processor; {MANY} take {MANY * cost / 2 / 3600:.1f} h of two processors.")
+    print(f"A session takes {cost:.2f} s of a processor; {MANY} take {hours_for(MANY, cost):.1f} h of two processors.")
     print(f"Written to {file.summary}.")
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from signimit.benchmark.frozen import get_session, session_hash
@@ -42,20 +44,19 @@ def run_task(task: Task) -> Record:
     Raises:
         InvalidInputError: If the entry commands what is not a velocity.
     """
+    began = time.thread_time()
     entrant = get_entrant(task.entrant)
     session = get_session(get_split(task.split), task.seed)
     lesson = with_more_demonstrations(session, entrant.demonstrations)
-    start = time.thread_time()
-    entry = make_entry(entrant, session, lesson)
-    entry.observe(lesson.demonstrations)
-    observed = time.thread_time()
-    understanding: Understanding | None = getattr(entry, "understanding", None)
-    understood = None if understanding is None else score_understanding(understanding, lesson.truth)
-    try:
+    composed = time.thread_time()
+    with _blaming(f"entry {task.entrant.name}, split {task.split}, session {task.seed}"):
+        entry = make_entry(entrant, session, lesson)
+        entry.observe(lesson.demonstrations)
+        observed = time.thread_time()
+        understanding: Understanding | None = getattr(entry, "understanding", None)
         answers = _answers(entry, session, lesson, understanding)
-    except InvalidInputError as error:
-        raise error.inside(f"entry {task.entrant.name}, split {task.split}, session {task.seed}") from None
-    seconds = {"observe": round(observed - start, 4), "act": round(time.thread_time() - observed, 4)}
+    understood = None if understanding is None else score_understanding(understanding, lesson.truth)
+    times = {"compose": composed - began, "observe": observed - composed, "act": time.thread_time() - observed}
     return {
         "split": task.split,
         "seed": task.seed,
@@ -64,8 +65,20 @@ def run_task(task: Task) -> Record:
         "demonstrations": len(lesson.demonstrations),
         **(Understood(*understood)._asdict() if understood else {}),
         **answers,
-        "seconds": seconds,
+        "seconds": {part: round(spent, 4) for part, spent in times.items()},
     }
+
+
+@contextmanager
+def _blaming(where: str) -> Iterator[None]:
+    """Say where an entry failed: in our sentence, or beside the traceback of a mistake of its own."""
+    try:
+        yield
+    except InvalidInputError as error:
+        raise error.inside(where) from None
+    except Exception as error:
+        error.add_note(where)
+        raise
 
 
 def make_entry(entrant: Entrant | Oracle, session: BenchmarkSession, lesson: Lesson) -> Entry:

@@ -9,6 +9,8 @@ from signimit.benchmark.results import Summary
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, Estimate
 
+MANY = 10_000  # sessions whose cost is told
+
 
 def ranked(summaries: Sequence[Summary]) -> list[Summary]:
     """Sort: entries by the commands they obeyed, whoever met more splits first; oracles after them."""
@@ -81,10 +83,12 @@ def _page(summaries: Sequence[Summary]) -> Iterator[str]:
     yield ""
     yield overview(summaries)
     yield ""
-    yield "| entry | what it is | demonstrations | sessions | processor seconds a session | code |"
-    yield "|---|---|---|---|---|---|"
+    yield "| entry | what it is | demonstrations | sessions | processor seconds a session | hours for 10,000 | code |"
+    yield "|---|---|---|---|---|---|---|"
     for summary in ranked(summaries):
         yield _facts(summary)
+    yield ""
+    yield "Demonstrations are a session's, on average. Hours are of two processors."
     yield ""
     yield "## Stage by stage, with 95 % intervals"
     yield ""
@@ -100,5 +104,10 @@ def _facts(summary: Summary) -> str:
     sessions = sum(s["sessions"] for s in splits)
     seconds = sum(s["seconds"] for s in splits) / max(1, sessions)
     shown = sum(s["demonstrations"] for s in splits) / max(1, sessions)
-    cells = [_entry(summary), summary["title"], f"{shown:.0f}", str(sessions), f"{seconds:.2f}", f"`{summary['code']}`"]
-    return _row(cells)
+    cost = f"{seconds:.2f}", f"{hours_for(MANY, seconds):.1f}"
+    return _row([_entry(summary), summary["title"], f"{shown:.0f}", str(sessions), *cost, f"`{summary['code']}`"])
+
+
+def hours_for(sessions: int, seconds: float, processors: int = 2) -> float:
+    """Return how long so many sessions take, h, each so many seconds of one processor."""
+    return sessions * seconds / processors / 3600

@@ -54,7 +54,7 @@ def test_what_a_cluster_left_undone_is_done_on_the_next_run(
 ) -> None:
     file = ResultFile(tmp_path, still)
     engine = dask_engine(cluster.scheduler_address)
-    running = run_missing(file, ["few"], range(4), engine)
+    running: Any = run_missing(file, ["few"], range(4), engine)
     next(running)
     running.close()
     seeds = [r["seed"] for r in run_missing(file, ["few"], range(4), engine)]

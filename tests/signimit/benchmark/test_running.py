@@ -88,7 +88,7 @@ def test_stages_that_an_entry_does_not_tell_are_not_scored() -> None:
 def test_a_record_depends_on_its_task_alone() -> None:
     first, again, other = ran("listener"), ran("listener"), ran("listener", seed=1)
     for record in (first, again, other):
-        assert set(record.pop("seconds")) == {"observe", "act"}
+        assert set(record.pop("seconds")) == {"compose", "observe", "act"}
     assert json.loads(json.dumps(first)) == again
     assert first["session"] != other["session"]
     assert first["misfit"] != other["misfit"]
@@ -108,3 +108,13 @@ def test_a_mistake_names_the_entry_the_split_and_the_session(monkeypatch: pytest
     monkeypatch.setattr(Listener, "act", lambda self, observation: (float("nan"), 0.0))
     with pytest.raises(InvalidInputError, match="entry listener, split few, session 3: act at step 0: expected a fini"):
         ran("listener", seed=3)
+
+
+def test_a_bug_of_an_entry_keeps_its_traceback_and_says_in_which_session(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(self: Listener, demonstrations: DemonstrationSet) -> None:
+        raise KeyError("mine")
+
+    monkeypatch.setattr(Listener, "observe", fail)
+    with pytest.raises(KeyError, match="mine") as caught:
+        ran("listener", seed=3)
+    assert caught.value.__notes__ == ["entry listener, split few, session 3"]

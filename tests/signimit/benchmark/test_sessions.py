@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from signimit.benchmark.casts import another_style, same_people, strangers
 from signimit.benchmark.sessions import BenchmarkSession, compose_session, with_more_demonstrations
@@ -26,7 +27,7 @@ def shown_alike(a: BenchmarkSession, b: BenchmarkSession) -> bool:
     return all(np.array_equal(x[name], y[name]) for name in x)
 
 
-def least_distance(objects: np.ndarray) -> float:  # type: ignore[type-arg]
+def least_distance(objects: NDArray[np.float64]) -> float:
     gaps = np.linalg.norm(objects[:, None] - objects, axis=2)
     return float(gaps[~np.eye(len(objects), dtype=bool)].min())
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from signimit.benchmark.results import Summary
@@ -61,7 +62,7 @@ def test_the_page_explains_every_split_and_entry() -> None:
     page = leaderboard(SUMMARIES)
     assert "### unseen-pair\n\nChanged: only the pairs that were never shown are asked for.\n" in page
     assert "### many" not in page
-    assert "| clone | the clone | 12 | 8 | 0.50 | `abc` |" in page
+    assert "| clone | the clone | 12 | 8 | 0.50 | 0.7 | `abc` |" in page
 
 
 def test_the_figure_has_a_panel_for_each_split(tmp_path: Path) -> None:
@@ -72,5 +73,6 @@ def test_the_figure_has_a_panel_for_each_split(tmp_path: Path) -> None:
     assert [panel.get_title(loc="left") for panel in figure.axes] == ["paper", "unseen-pair"]
     paper = figure.axes[0]
     assert [label.get_text() for label in paper.get_yticklabels()] == ["good", "clone", "partial", "all-knowing"]
-    points = [line.get_xydata().tolist() for line in paper.get_lines() if len(line.get_xydata()) == 1]
+    lines = [np.asarray(line.get_xydata()) for line in paper.get_lines()]
+    points = [line.tolist() for line in lines if len(line) == 1]
     assert points == [[[0.9, 0]], [[0.25, 1]], [[1.0, 2]], [[1.0, 3]]]
