@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,19 +17,16 @@ Array = NDArray[np.float64]
 Policy = Callable[[Array], ArrayLike]
 
 
-@dataclass(frozen=True)
-class _Group:
+class _Group(NamedTuple):
     """Hands that one policy moves.
 
     Attributes:
         members: Their numbers, shape (G,); that of a lone hand twice, since BLAS adds up a single row in another order
             than one of many, and what a hand is told should not depend on the others.
-        origins: Where the objects are that they move about, shape (G, 2), m.
-        move: Hands (G, 2) in the objects' frames, m, to velocities (G, 2), m/s.
+        move: Hands (G, 2), m, to velocities (G, 2), m/s, table frame.
     """
 
     members: NDArray[np.intp]
-    origins: Array
     move: Callable[[Array], Array]
 
 
@@ -45,21 +42,14 @@ class Flock:
         Raises:
             InvalidInputError: If one is not a policy.
         """
-        members: dict[int, list[int]] = {}
-        movers: dict[int, Any] = {}
-        origins = np.zeros((len(policies), 2))
+        members: dict[tuple[type, int], list[int]] = {}
         for number, policy in enumerate(policies):
             if not callable(policy):
                 raise InvalidInputError(f"policies: reproduction {number}", "a policy", type(policy).__name__)
-            mover: Any = policy
-            if isinstance(policy, TablePolicy):
-                mover, origins[number] = policy.policy, policy.origin
-            movers[id(mover)] = mover
-            members.setdefault(id(mover), []).append(number)
-        self._groups = []
-        for key, numbers in members.items():
-            several = np.array(numbers if len(numbers) > 1 else 2 * numbers)
-            self._groups.append(_Group(several, origins[several], hand_velocities(movers[key])))
+            same = policy.policy if isinstance(policy, TablePolicy) else policy
+            members.setdefault((type(policy), id(same)), []).append(number)
+        several = [numbers if len(numbers) > 1 else 2 * numbers for numbers in members.values()]
+        self._groups = [_Group(np.array(n), hand_velocities(_merged([policies[i] for i in n]))) for n in several]
         self._count = len(policies)
 
     def velocities(self, hands: Array) -> Array:
@@ -70,8 +60,16 @@ class Flock:
         """
         wanted = np.empty((self._count, 2))
         for group in self._groups:
-            wanted[group.members] = _checked(group.move(hands[group.members] - group.origins), group)
+            wanted[group.members] = _checked(group.move(hands[group.members]), group)
         return wanted
+
+
+def _merged(policies: Sequence[Policy]) -> Policy:
+    """Return one policy for hands that have the same, each about an object of its own."""
+    first = policies[0]
+    if not isinstance(first, TablePolicy):
+        return first
+    return replace(first, origin=np.array([policy.origin for policy in policies if isinstance(policy, TablePolicy)]))
 
 
 def _checked(velocities: Array, group: _Group) -> Array:

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 import signimit
-from signimit.frames import on_table
+from signimit.frames import TablePolicy, on_table
 from signimit.policies import POLICY_KINDS
 from signimit_envs.reproduction import hand_velocities
 from signimit_envs.rollout.flock import Flock
@@ -57,6 +57,16 @@ def test_a_policy_is_called_once_for_all_its_hands_and_keeps_one_state_for_them(
     np.testing.assert_allclose(flock.velocities(hands), [[1, 0.4], [1, 0.6], [1, 0.7]])
     assert shared.calls == [2, 2]
     assert len(own.calls) == 2
+
+
+def test_a_policy_that_is_put_on_the_table_without_its_state_is_called_without_it() -> None:
+    class Still(Counting):
+        def __call__(self, hand: Any) -> Array:
+            return -np.asarray(hand)
+
+    still = Still()
+    flock = Flock([TablePolicy(still, np.zeros(2)), on_table(still, np.zeros(2))])
+    np.testing.assert_allclose(flock.velocities(np.array([[1.0, 2.0], [3.0, 4.0]])), [[-1, -2], [0, 4]])
 
 
 def test_a_function_of_hands_on_the_table_is_a_policy() -> None:
