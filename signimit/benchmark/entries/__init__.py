@@ -9,7 +9,7 @@ from signimit.benchmark.entries.chance import Chance
 from signimit.benchmark.entries.imitator import learner_entrant
 from signimit.benchmark.entries.knn_cloning import NearestNeighbourCloning
 from signimit.benchmark.entries.oracles import AllKnowing, oracle_focus, oracle_grouping
-from signimit.benchmark.entries.replay import Replay
+from signimit.benchmark.entries.replay import Replay, ReplayNearby
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle
 
 
@@ -30,7 +30,12 @@ _ALL: tuple[Entrant | Oracle, ...] = (
         make=lambda kit: NearestNeighbourCloning(),
     ),
     Entrant(name="clone-mlp", title="behaviour cloning: a perceptron from signs, objects and hand", make=_perceptron),
-    Entrant(name="replay", title="the demonstration with the nearest signs, again", make=lambda kit: Replay()),
+    Entrant(
+        name="replay-nearby",
+        title="the demonstration with the nearest signs, about the object it was nearest to",
+        make=lambda kit: ReplayNearby(),
+    ),
+    Entrant(name="replay", title="the demonstration with the nearest signs, in its place", make=lambda kit: Replay()),
     Oracle(name="oracle-grouping", title="paper-path, told the groups", make=oracle_grouping),
     Oracle(name="oracle-focus", title="paper-path, told the foci", make=oracle_focus),
     Oracle(name="oracle", title="told everything; only path-following can fail", make=AllKnowing),

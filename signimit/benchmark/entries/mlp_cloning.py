@@ -19,7 +19,7 @@ except ImportError:
     raise MissingDependencyError("scikit-learn", "study", "The entry clone-mlp") from None
 
 HIDDEN = (128, 128)
-EPOCHS = 40
+EPOCHS = 20
 COPIES = 3  # of each moment, two of them disturbed
 ASTRAY = 0.03  # m, standard deviation of a disturbance of the hand
 PULL = 2.0  # 1/s, how fast a hand that is astray goes back

@@ -1,4 +1,4 @@
-"""The nearest demonstration, replayed: what can be had without understanding anything."""
+"""The nearest demonstration, replayed: what can be had without finding out what any sign means."""
 
 from __future__ import annotations
 
@@ -7,17 +7,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.protocol import Observation
-from signimit.demonstrations import DemonstrationSet
+from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.frames import on_table
 from signimit.policies import make_policy
 from signimit.signs import normalised_sign, pairwise_dtw
+from signimit.traces import make_trace
+
+Place = NDArray[np.float64]
 
 
 class Replay:
     """Draws again, at the same place on the table, what was shown when the most similar utterance was made.
 
     The likeness of two utterances is the sum of the dynamic time warping distances of their words. The path is replayed
-    in the table frame because any other frame would be an object, and to choose one is to know the focus; velocities
+    in the table frame because any other frame would be an object's, and to choose one is to guess the focus; velocities
     replayed from wherever the hand happens to start would draw at random places. Objects have no part in it.
     """
 
@@ -33,8 +36,25 @@ class Replay:
             pairwise_dtw(normalised_sign(sign)[None], known)[0] for sign, known in zip(signs, self._signs, strict=True)
         ]
         shown = self._demonstrations[int(np.sum(gaps, axis=0).argmin())]
-        self._hand = Follower(on_table(make_policy([shown.hand], [shown.times]), np.zeros(2)))
+        there, here = self._origins(shown, objects)
+        self._hand = Follower(on_table(make_policy([shown.hand - there], [shown.times]), here))
 
     def act(self, observation: Observation) -> ArrayLike:
         """Follow the demonstrated path."""
         return self._hand.act(observation)
+
+    def _origins(self, shown: Demonstration, objects: NDArray[np.float64]) -> tuple[Place, Place]:
+        """Return what the path was relative to when it was shown, and what it shall be relative to now."""
+        return np.zeros(2), np.zeros(2)
+
+
+class ReplayNearby(Replay):
+    """Draws what was shown when the most similar utterance was made, about the object that it was drawn nearest to.
+
+    It takes nearness for focus, and needs nothing else to obey a pair that was shown. It has no idea of words.
+    """
+
+    def _origins(self, shown: Demonstration, objects: NDArray[np.float64]) -> tuple[Place, Place]:
+        centre = make_trace(shown.hand, shown.times).centre
+        nearest = int(np.linalg.norm(shown.objects - centre, axis=1).argmin())
+        return shown.objects[nearest], objects[nearest]

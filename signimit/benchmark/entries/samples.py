@@ -42,4 +42,5 @@ def utterance_features(signs: Sequence[ArrayLike]) -> NDArray[np.float64]:
 
     The Euclidean distance of two descriptions is the root of Σ over words of the mean squared gap between points.
     """
-    return np.concatenate([normalised_sign(sign, SIGN_SAMPLES).ravel() for sign in signs]) / np.sqrt(SIGN_SAMPLES)
+    points = [normalised_sign(sign, SIGN_SAMPLES) for sign in signs]
+    return np.asarray(np.stack(points).ravel() / np.sqrt(SIGN_SAMPLES))
