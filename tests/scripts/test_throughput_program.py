@@ -27,7 +27,7 @@ def run(*arguments: str, monkeypatch: pytest.MonkeyPatch) -> None:
 def measured(plan: ThroughputPlan) -> report.Throughput:
     speeds = [BatchSpeed(batch, threads, 11.0, 10.5, 6.0) for batch in plan.batches for threads in plan.threads]
     parts = [Part("everything", 1.0, 0.09)]
-    return report.Throughput(speeds, Agreement(36, 1e-6, 36), parts, [WayToStep("a loop", 1.0)])
+    return report.Throughput(speeds, [Agreement("knn", 18, 1e-6, 18)], parts, [WayToStep("a loop", 1.0)])
 
 
 def test_the_page_and_the_numbers_are_written_and_shown(

@@ -68,6 +68,7 @@ class ManyArms:
         before = self._qpos.copy()
         room = (self._arm.lower - before) * CONTROL_RATE, (self._arm.upper - before) * CONTROL_RATE
         np.clip(velocities, *room, out=self._ctrl)
+        # Fewer, longer steps would be faster, and all but the same until a drive's torque limit binds: then it hunts.
         self._batch.step(nstep=SUBSTEPS)
         sound: NDArray[np.bool_] = ~self._batch.warning[..., 1].any(axis=1)
         if not sound.all():

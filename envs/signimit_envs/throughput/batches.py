@@ -40,11 +40,13 @@ class Agreement(NamedTuple):
     """Whether reproductions at once are those one at a time.
 
     Attributes:
+        kind: Of the policies.
         reproductions: How many were compared.
         largest_gap: Largest distance between two hands at one time, m.
         same_verdicts: Of how many `signimit.performed` says the same movement and object.
     """
 
+    kind: str
     reproductions: int
     largest_gap: float
     same_verdicts: int
@@ -91,4 +93,4 @@ def compare_paths(work: Work, seconds: float) -> Agreement:
     for paths, scene in zip(zip(alone, together, strict=True), work.scenes, strict=True):
         one, other = (performed(path, scene.objects, work.templates)[:2] for path in paths)
         same += one == other
-    return Agreement(len(alone), gap, same)
+    return Agreement(work.policies[0].policy.kind, len(alone), gap, same)

@@ -14,6 +14,7 @@ from signimit import InvalidInputError
 from signimit.frames import TablePolicy
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
+from signimit.policies import DEFAULT_POLICY
 from signimit_envs.casting import cast_people
 from signimit_envs.session import Scene, SessionPlan, compose_session
 
@@ -80,10 +81,16 @@ class Work(NamedTuple):
         return Work(self.policies[:count], self.scenes[:count], self.templates)
 
 
-def compose_work(count: int, seed: int = 0) -> Work:
-    """Let a built-in session's learner understand so many commands, each in a scene of its own."""
+def compose_work(count: int, seed: int = 0, kind: str = DEFAULT_POLICY) -> Work:
+    """Let a built-in session's learner understand so many commands, each in a scene of its own.
+
+    Args:
+        count: How many.
+        seed: Of the session.
+        kind: Of the policies.
+    """
     requests = len(SessionPlan().language.requests)
-    plan = SessionPlan(method=DEFAULT_METHOD, seed=seed, attempts=-(-count // requests))
+    plan = SessionPlan(method=DEFAULT_METHOD, policy=kind, seed=seed, attempts=-(-count // requests))
     session = compose_session(plan, cast_people(plan.language, np.random.default_rng([seed, 1])))
     model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
     chosen = [session.commands[i] for i in np.random.default_rng(seed).permutation(len(session.commands))[:count]]
