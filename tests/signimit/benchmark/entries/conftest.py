@@ -1,0 +1,35 @@
+"""Sessions and entries for the tests of entries."""
+
+from collections.abc import Callable
+
+import pytest
+
+from signimit.benchmark.entries import ENTRANTS
+from signimit.benchmark.frozen import get_session
+from signimit.benchmark.protocol import Entry
+from signimit.benchmark.running import make_entry
+from signimit.benchmark.sessions import BenchmarkSession, Lesson
+from signimit.benchmark.splits import get_split
+from signimit.exceptions import MissingDependencyError
+
+Observed = Callable[[str, BenchmarkSession], Entry]
+
+
+@pytest.fixture(scope="session")
+def paper_session() -> BenchmarkSession:
+    return get_session(get_split("paper"), 0)
+
+
+@pytest.fixture
+def observed() -> Observed:
+    """Makes an entry that has observed a session as it is, however many demonstrations it would have liked."""
+
+    def make(name: str, session: BenchmarkSession) -> Entry:
+        try:
+            entry = make_entry(ENTRANTS[name], session, Lesson(session.demonstrations, session.truth))
+        except MissingDependencyError as error:
+            pytest.skip(str(error))
+        entry.observe(session.demonstrations)
+        return entry
+
+    return make

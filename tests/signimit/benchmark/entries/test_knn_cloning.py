@@ -1,0 +1,41 @@
+"""Cloning by nearest neighbours."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.benchmark.entries.knn_cloning import NEAR, NEIGHBOURS
+from signimit.benchmark.entries.samples import samples_of, utterance_features
+from signimit.benchmark.protocol import Observation
+from signimit.benchmark.registry import refer_to
+from signimit.benchmark.running import Task, run_task
+from signimit.benchmark.sessions import BenchmarkSession
+
+
+def test_the_velocity_is_the_weighted_mean_of_the_most_similar_moments(
+    paper_session: BenchmarkSession, observed: Any
+) -> None:
+    entry, command = observed("clone-knn", paper_session), paper_session.commands[0]
+    entry.begin(command.signs, command.objects)
+    given = entry.act(Observation(command.hand, np.zeros(2), 0.0))
+    np.testing.assert_allclose(given, _by_definition(paper_session, command), atol=1e-9)
+
+
+def _by_definition(session: BenchmarkSession, command: Any) -> NDArray[np.float64]:
+    samples, moments = samples_of(session.demonstrations), []
+    for demonstration, hand, velocity in zip(*samples, strict=True):
+        shown = session.demonstrations[int(demonstration)]
+        unlike = np.linalg.norm(utterance_features(shown.signs) - utterance_features(command.signs))
+        for there, here in zip(shown.objects, command.objects, strict=True):
+            away = np.linalg.norm((hand - there) - (command.hand - here)) / NEAR
+            moments.append((np.hypot(unlike, away), *velocity))
+    nearest = np.array(sorted(moments)[:NEIGHBOURS])
+    return np.asarray(np.average(nearest[:, 1:], axis=0, weights=nearest[:, 0] ** -2.0))
+
+
+def test_pairs_that_were_shown_are_obeyed_more_often_than_by_chance_and_no_other() -> None:
+    records = [run_task(Task(refer_to("clone-knn"), "paper", seed)) for seed in range(4)]
+    unseen = [run_task(Task(refer_to("clone-knn"), "unseen-pair", seed)) for seed in range(2)]
+    assert sum(sum(r["obeyed"]) for r in records) > 36 / 9  # chance asks one of nine
+    assert sum(sum(r["obeyed"]) for r in unseen) == 0

@@ -1,0 +1,28 @@
+"""Oracles are told what they are told, and infer the rest."""
+
+from typing import Any
+
+import numpy as np
+
+from signimit.benchmark.registry import refer_to
+from signimit.benchmark.running import Task, run_task
+from signimit.benchmark.sessions import BenchmarkSession
+from signimit.grouping import canonical_labels
+
+
+def test_who_knows_everything_says_so_and_obeys(paper_session: BenchmarkSession) -> None:
+    record = run_task(Task(refer_to("oracle"), "paper", 0))
+    assert record["obeyed"] == [1] * 9
+    assert record["read"] == [2] * 9
+
+
+def test_who_is_told_the_groups_or_foci_has_them_right(paper_session: BenchmarkSession, observed: Any) -> None:
+    labels = canonical_labels(paper_session.truth.movement)
+    assert np.array_equal(observed("oracle-grouping", paper_session).understanding.labels, labels)
+    assert np.array_equal(observed("oracle-focus", paper_session).understanding.focus, paper_session.truth.focus)
+
+
+def test_being_told_the_groups_mends_what_the_paper_gets_wrong() -> None:
+    alone = [run_task(Task(refer_to("paper-path"), "paper", seed)) for seed in range(4)]
+    told = [run_task(Task(refer_to("oracle-grouping"), "paper", seed)) for seed in range(4)]
+    assert sum(sum(r["obeyed"]) for r in told) > sum(sum(r["obeyed"]) for r in alone)
