@@ -96,12 +96,14 @@ def run_missing(file: ResultFile, splits: Sequence[str], seeds: Iterable[int], e
         FileFormatError: If the file has results that these cannot join; or a worker runs other code.
     """
     done = {(r["split"], r["seed"]) for r in file.read()}
-    if not file.records.exists() or not file.records.stat().st_size:
-        file.append(file.header)
+    empty = not file.records.exists() or not file.records.stat().st_size
     todo = (Task(file.entrant, split, seed) for seed in seeds for split in splits if (split, seed) not in done)
     for record in engine(todo):
         if record["code"] != code_hash():
             raise FileFormatError("record of a worker", f"code {code_hash()}", str(record["code"]))
+        if empty:
+            file.append(file.header)
+        empty = False
         file.append(record)
         yield record
 
@@ -133,10 +135,10 @@ def _summarise_split(name: str, records: Sequence[Record]) -> dict[str, Any]:
 
 
 def records_digest(records: Iterable[Record]) -> str:
-    """Return the SHA-256 of records in the order of `ResultFile.read`, leaving out how long they took."""
+    """Return the SHA-256 of what was found, in the order of `ResultFile.read`: not how long it took, nor the code."""
     sha = hashlib.sha256()
     for record in records:
-        lasting = {key: value for key, value in record.items() if key != "seconds"}
+        lasting = {key: value for key, value in record.items() if key not in ("seconds", "code")}
         sha.update(json.dumps(lasting, sort_keys=True).encode() + b"\n")
     return sha.hexdigest()
 

@@ -94,6 +94,16 @@ def test_a_line_that_is_no_record_is_named(file: ResultFile) -> None:
         file.read()
 
 
+def test_an_engine_that_cannot_start_leaves_nothing_behind(file: ResultFile) -> None:
+    def unreachable(tasks: Iterable[Task]) -> Iterator[Record]:
+        yield from ()
+        raise OSError("nobody there")
+
+    with pytest.raises(OSError, match="nobody there"):
+        list(run_missing(file, ["few"], [0], unreachable))
+    assert not file.folder.exists()
+
+
 def test_a_record_that_lacks_something_is_named(file: ResultFile) -> None:
     run(file, [0])
     with file.records.open("a") as out:
@@ -136,7 +146,7 @@ def test_the_digest_knows_results_but_neither_time_nor_order(file: ResultFile, t
             assert record["seed"] == seed
     assert summarise(other)["digest"] == summarise(file)["digest"]
     records = file.read()
-    assert records_digest([r | {"seconds": {}} for r in records]) == records_digest(records)
+    assert records_digest([r | {"seconds": {}, "code": "abc"} for r in records]) == records_digest(records)
     assert records_digest([records[0] | {"misfit": [0.1, 0.2000001]}, *records[1:]]) != records_digest(records)
 
 
