@@ -10,8 +10,8 @@ from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.recording import Recording
-from signimit_envs.recording.exchange import MINARI_PREFIX, read_data, write_data
-from signimit_envs.recording.lerobot_recordings import SIZE, write_lerobot_recording
+from signimit_envs.recording.formats import MINARI_PREFIX, read_data, write_data
+from signimit_envs.recording.formats.lerobot.recordings import SIZE, write_lerobot_recording
 from signimit_envs.rendering import choose_backend
 
 

@@ -13,7 +13,7 @@ from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
 from signimit_envs.casting import cast_people
 from signimit_envs.recording import record_reproductions, save_recording
-from signimit_envs.recording.exchange import check_vacant_file
+from signimit_envs.recording.formats import check_vacant_file
 from signimit_envs.session import SessionPlan, compose_session
 
 

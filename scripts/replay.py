@@ -20,7 +20,7 @@ from signimit_envs.recording import (
     find_divergence,
     observe_states,
 )
-from signimit_envs.recording.exchange import check_vacant_file, read_recording
+from signimit_envs.recording.formats import check_vacant_file, read_recording
 from signimit_envs.video import write_video
 
 

@@ -99,9 +99,9 @@ class Recording(Sequence[RecordedEpisode]):
         for number, episode in enumerate(self.episodes):
             shapes = row_shapes(episode)
             for name in sorted(first.keys() | shapes.keys()):
-                want, have = (str(fields.get(name, "none")) for fields in (first, shapes))
+                want, have = first.get(name), shapes.get(name)
                 if want != have:
-                    raise InvalidInputError(f"episode {number}: {name}", f"{want} as in episode 0", have)
+                    raise InvalidInputError(f"episode {number}: {name}", f"{_said(want)} as in episode 0", _said(have))
 
     @overload
     def __getitem__(self, index: int) -> RecordedEpisode: ...
@@ -160,6 +160,11 @@ def episode_from_arrays(arrays: Mapping[str, NDArray[Any]], seed: int | None) ->
 def row_shapes(episode: RecordedEpisode) -> dict[str, tuple[str, tuple[int, ...]]]:
     """Return the type and the shape of a row of each of an episode's arrays, by `episode_arrays`' names."""
     return {name: (array.dtype.str, array.shape[1:]) for name, array in episode_arrays(episode).items()}
+
+
+def _said(row: tuple[str, tuple[int, ...]] | None) -> str:
+    """Put a row's type and shape in words."""
+    return "none" if row is None else f"rows of {np.dtype(row[0]).name} of shape {row[1]}"
 
 
 def _rows(value: ArrayLike, where: str, rows: int, dtype: type[np.generic] | None = None) -> NDArray[Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,6 +21,7 @@ STATE_SPEC = mujoco.mjtState.mjSTATE_INTEGRATION
 """What a recorded state holds: all that decides the next step. FULLPHYSICS lacks where the objects (mocap) are."""
 
 _MAX_SUBSTEPS = 1000
+_FILE = re.compile(r"""\bfile\w*\s*=\s*["']([^"']+)""")  # MuJoCo would look for it on this disk
 _TRUSTED = ("signimit_envs.", "gymnasium.wrappers.")
 
 
@@ -67,8 +69,11 @@ class RecordingOrigin:
         """Compile the recorded model.
 
         Raises:
-            FileFormatError: If MuJoCo cannot.
+            FileFormatError: If MuJoCo cannot, or the model names files that are not in the recording.
         """
+        for name in _FILE.findall(self.model_xml):
+            if name not in self.assets:
+                raise FileFormatError("recorded model", "no files but those recorded with it", repr(name))
         try:
             return mujoco.MjModel.from_xml_string(self.model_xml, dict(self.assets))
         except ValueError as error:

@@ -48,6 +48,13 @@ def test_another_model_is_noticed(recording: Recording) -> None:
         find_divergence(replace(recording.origin, model_xml="<mujoco><nonsense/></mujoco>"), recording[0])
 
 
+@pytest.mark.parametrize("line", ['<include file="/etc/hostname"/>', "<asset><mesh name='a' file = 'a.stl'/></asset>"])
+def test_a_model_that_names_files_of_this_disk_is_refused(recording: Recording, line: str) -> None:
+    hostile = replace(recording.origin, model_xml=f"<mujoco>{line}</mujoco>")
+    with pytest.raises(si.SignimitError, match="expected no files but those recorded with it, found"):
+        find_divergence(hostile, recording[0])
+
+
 def test_a_blow_up_is_passed_over_as_the_environment_did() -> None:
     with closing(EpisodeRecorder(gym.make(ENV_IDS[0]))) as env:
         arm: Any = env.unwrapped

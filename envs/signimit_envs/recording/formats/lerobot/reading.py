@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit_envs.recording.lerobot_images import image_from_png
-from signimit_envs.recording.lerobot_layout import INFO, EpisodeFrames, import_pyarrow
+from signimit_envs.recording.formats.lerobot.images import image_from_png
+from signimit_envs.recording.formats.lerobot.layout import INFO, EpisodeFrames, import_pyarrow
 
 _TOTALS = {"total_episodes": "episodes", "total_frames": "frames"}
 

@@ -12,8 +12,11 @@ import pytest
 
 import signimit as si
 from signimit_envs.recording import Recording
-from signimit_envs.recording.minari_demonstrations import read_minari_demonstrations, write_minari_demonstrations
-from signimit_envs.recording.minari_recordings import read_minari_recording, write_minari_recording
+from signimit_envs.recording.formats.minari_demonstrations import (
+    read_minari_demonstrations,
+    write_minari_demonstrations,
+)
+from signimit_envs.recording.formats.minari_recordings import read_minari_recording, write_minari_recording
 
 minari = pytest.importorskip("minari")
 pytest.importorskip("h5py")

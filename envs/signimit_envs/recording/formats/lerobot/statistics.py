@@ -37,17 +37,21 @@ def image_statistics(images: NDArray[np.uint8]) -> Statistics:
 
 
 class PixelCounter:
-    """Counts how often each level occurs in each channel of the frames that pass by."""
+    """Counts how often each level occurs in each channel of the frames that pass by.
+
+    Attributes:
+        frames: How many there were.
+    """
 
     def __init__(self) -> None:
         """Start with none."""
         self._counts = np.zeros((3, _LEVELS), dtype=np.int64)
-        self._frames = 0
+        self.frames = 0
 
     def watch(self, frames: Iterable[NDArray[np.uint8]]) -> Iterator[NDArray[np.uint8]]:
         """Pass frames on, shape (height, width, 3), and count."""
         for frame in frames:
-            self._frames += 1
+            self.frames += 1
             for channel, counts in enumerate(self._counts):
                 counts += np.bincount(frame[::_THIN, ::_THIN, channel].ravel(), minlength=_LEVELS)
             yield frame
@@ -55,7 +59,7 @@ class PixelCounter:
     def __add__(self, other: PixelCounter) -> PixelCounter:
         """Return the counts of both."""
         both = PixelCounter()
-        both._counts, both._frames = self._counts + other._counts, self._frames + other._frames
+        both._counts, both.frames = self._counts + other._counts, self.frames + other.frames
         return both
 
     def statistics(self) -> Statistics:
@@ -72,5 +76,5 @@ class PixelCounter:
         }
         return {
             **{name: value.reshape(3, 1, 1).tolist() for name, value in described.items()},
-            "count": [self._frames],
+            "count": [self.frames],
         }

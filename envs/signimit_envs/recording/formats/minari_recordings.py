@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit_envs.recording.episodes import BOX, RecordedEpisode, Recording
-from signimit_envs.recording.minari_store import create_dataset, import_minari, minari_errors, open_dataset
+from signimit_envs.recording.formats.minari_store import create_dataset, import_minari, minari_errors, open_dataset
 from signimit_envs.recording.origin import RecordingOrigin
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
 

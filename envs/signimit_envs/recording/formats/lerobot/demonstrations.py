@@ -14,10 +14,11 @@ from signimit.demonstrations import KIND, VERSION, Demonstration, DemonstrationS
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.formats.whole_folder import whole_folder
 from signimit.signs import SAMPLES, normalised_sign
-from signimit_envs.recording.lerobot_layout import INFO, EpisodeFrames, Feature, Layout, import_pyarrow, write_layout
-from signimit_envs.recording.lerobot_reading import lerobot_errors, read_layout
-from signimit_envs.recording.lerobot_recordings import ORIGIN, TASK
-from signimit_envs.recording.origin_files import HEADER
+from signimit_envs.recording.formats.lerobot.layout import INFO, EpisodeFrames, Feature, Layout, import_pyarrow
+from signimit_envs.recording.formats.lerobot.reading import lerobot_errors, read_layout
+from signimit_envs.recording.formats.lerobot.recordings import ORIGIN, TASK
+from signimit_envs.recording.formats.lerobot.writing import write_layout
+from signimit_envs.recording.formats.origin_files import HEADER
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 _ROBOT = "human_hand"

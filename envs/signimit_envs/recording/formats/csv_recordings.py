@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.formats.csv_tables import Row, read_table, write_table
 from signimit.formats.whole_folder import whole_folder
-from signimit_envs.recording.columns import (
+from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
+from signimit_envs.recording.formats.columns import (
     Field,
     check_columns,
     constant_fields,
@@ -28,8 +29,7 @@ from signimit_envs.recording.columns import (
     fields_to_meta,
     has_last_row,
 )
-from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
-from signimit_envs.recording.origin_files import read_origin, write_origin
+from signimit_envs.recording.formats.origin_files import read_origin, write_origin
 from signimit_envs.recording.storage import KIND, VERSION
 
 STEPS, EPISODES = "steps.csv", "episodes.csv"

@@ -11,13 +11,20 @@ from signimit import demonstrations as demonstration_files
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.formats.csv_demonstrations import HANDS, read_csv_demonstrations, write_csv_demonstrations
-from signimit_envs.recording import csv_recordings, lerobot_layout, minari_store
-from signimit_envs.recording.csv_recordings import read_csv_recording, write_csv_recording
 from signimit_envs.recording.episodes import Recording
-from signimit_envs.recording.lerobot_demonstrations import read_lerobot_demonstrations, write_lerobot_demonstrations
-from signimit_envs.recording.lerobot_recordings import read_lerobot_recording, write_lerobot_recording
-from signimit_envs.recording.minari_demonstrations import read_minari_demonstrations, write_minari_demonstrations
-from signimit_envs.recording.minari_recordings import read_minari_recording, write_minari_recording
+from signimit_envs.recording.formats.csv_recordings import STEPS, read_csv_recording, write_csv_recording
+from signimit_envs.recording.formats.lerobot.demonstrations import (
+    read_lerobot_demonstrations,
+    write_lerobot_demonstrations,
+)
+from signimit_envs.recording.formats.lerobot.layout import INFO
+from signimit_envs.recording.formats.lerobot.recordings import read_lerobot_recording, write_lerobot_recording
+from signimit_envs.recording.formats.minari_demonstrations import (
+    read_minari_demonstrations,
+    write_minari_demonstrations,
+)
+from signimit_envs.recording.formats.minari_recordings import read_minari_recording, write_minari_recording
+from signimit_envs.recording.formats.minari_store import MARKER, dataset_folder
 from signimit_envs.recording.storage import load_recording, save_recording
 
 Data = Recording | DemonstrationSet
@@ -60,21 +67,21 @@ FORMATS = {
         read_csv_demonstrations,
         write_csv_recording,
         write_csv_demonstrations,
-        (csv_recordings.STEPS, HANDS),
+        (STEPS, HANDS),
     ),
     "minari": Format(
         read_minari_recording,
         read_minari_demonstrations,
         write_minari_recording,
         write_minari_demonstrations,
-        (minari_store.MARKER,),
+        (MARKER,),
     ),
     "lerobot": Format(
         read_lerobot_recording,
         read_lerobot_demonstrations,
         write_lerobot_recording,
         write_lerobot_demonstrations,
-        (lerobot_layout.INFO,),
+        (INFO,),
     ),
 }
 
@@ -174,6 +181,6 @@ def _location(place: str | os.PathLike[str]) -> str:
     text = os.fspath(place)
     if not text.startswith(MINARI_PREFIX):
         return text
-    folder = minari_store.dataset_folder(text.removeprefix(MINARI_PREFIX))
+    folder = dataset_folder(text.removeprefix(MINARI_PREFIX))
     folder.stat()
     return os.fspath(folder)

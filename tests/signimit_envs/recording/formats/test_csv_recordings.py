@@ -14,8 +14,8 @@ import pytest
 
 import signimit as si
 from signimit_envs.recording import EpisodeRecorder, Recording
-from signimit_envs.recording.csv_recordings import read_csv_recording, write_csv_recording
 from signimit_envs.recording.episodes import episode_arrays, episode_from_arrays
+from signimit_envs.recording.formats.csv_recordings import read_csv_recording, write_csv_recording
 
 Same = Callable[[Recording, Recording], None]
 

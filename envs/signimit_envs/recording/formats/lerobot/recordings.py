@@ -18,20 +18,20 @@ from numpy.typing import NDArray
 
 from signimit.formats.whole_folder import whole_folder
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.recording.columns import Field, fields_from_meta, fields_of, fields_to_meta, has_last_row
 from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
-from signimit_envs.recording.lerobot_images import IMAGE
-from signimit_envs.recording.lerobot_layout import (
+from signimit_envs.recording.formats.columns import Field, fields_from_meta, fields_of, fields_to_meta, has_last_row
+from signimit_envs.recording.formats.lerobot.images import IMAGE
+from signimit_envs.recording.formats.lerobot.layout import (
     INFO,
     EpisodeFrames,
     Feature,
     Layout,
     Video,
     import_pyarrow,
-    write_layout,
 )
-from signimit_envs.recording.lerobot_reading import lerobot_errors, read_layout
-from signimit_envs.recording.origin_files import read_origin, write_origin
+from signimit_envs.recording.formats.lerobot.reading import lerobot_errors, read_layout
+from signimit_envs.recording.formats.lerobot.writing import write_layout
+from signimit_envs.recording.formats.origin_files import read_origin, write_origin
 from signimit_envs.recording.replay import film_states
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
 from signimit_envs.rendering import choose_backend

@@ -11,7 +11,7 @@ import pytest
 
 import signimit as si
 from signimit_envs.recording import Recording
-from signimit_envs.recording.exchange import FORMATS, read_data, read_recording, write_data
+from signimit_envs.recording.formats import FORMATS, read_data, read_recording, write_data
 
 Same = Callable[[Recording, Recording], None]
 NEEDED = {"minari": ("minari", "h5py"), "lerobot": ("pyarrow",)}
@@ -29,7 +29,7 @@ def place_for(name: str, what: str, folder: Path) -> str:
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave out the videos, which take long and are tested elsewhere."""
-    monkeypatch.setattr("signimit_envs.recording.lerobot_recordings._drawable", lambda recording: [])
+    monkeypatch.setattr("signimit_envs.recording.formats.lerobot.recordings._drawable", lambda recording: [])
 
 
 def test_the_way_through_every_format_changes_nothing(

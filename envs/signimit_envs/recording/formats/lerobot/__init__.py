@@ -1,0 +1,1 @@
+"""LeRobot's data set layout, version 3, with pyarrow alone."""

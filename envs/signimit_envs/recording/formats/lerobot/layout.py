@@ -1,0 +1,159 @@
+"""LeRobot's data set layout, version 3: what is where, and nothing about what it means.
+
+::
+
+    meta/info.json                              features, frame rate, path templates, totals
+    meta/stats.json                             statistics of each feature over all frames
+    meta/tasks.parquet                          what was to be done, in words
+    meta/episodes/chunk-000/file-000.parquet    for each episode where its frames are, and their statistics
+    data/chunk-000/file-000.parquet             a row for each frame, many episodes a file
+    videos/KEY/chunk-000/file-000.mp4           a frame for each row of the data file of the same number
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.exceptions import InvalidInputError, MissingDependencyError
+from signimit_envs.recording.formats.lerobot.images import IMAGE
+
+VERSION = "v3.0"
+INFO, STATS, TASKS = "meta/info.json", "meta/stats.json", "meta/tasks.parquet"
+EPISODES = "meta/episodes/chunk-000/file-000.parquet"
+DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
+VIDEO = "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
+FILES_A_CHUNK, DATA_MB, VIDEO_MB = 1000, 100, 200
+INDICES = {
+    "timestamp": "float32",
+    "frame_index": "int64",
+    "episode_index": "int64",
+    "index": "int64",
+    "task_index": "int64",
+}
+
+
+class Feature(NamedTuple):
+    """What a column of frames is.
+
+    Attributes:
+        dtype: numpy's name of its type, or ``"image"``.
+        shape: Shape of a frame's value, (w,), or (height, width, 3) of an image.
+        names: What each of its numbers is, or each axis of an image.
+    """
+
+    dtype: str
+    shape: tuple[int, ...]
+    names: Sequence[str]
+
+    @property
+    def size(self) -> int:
+        """Bytes of a frame's value."""
+        return math.prod(self.shape) * (1 if self.dtype == IMAGE else np.dtype(self.dtype).itemsize)
+
+
+class EpisodeFrames(NamedTuple):
+    """An episode.
+
+    Attributes:
+        columns: For each feature its frames, shape (T, w), or (T, height, width, 3).
+        extras: More columns of its row in the table of episodes, each a list of numbers.
+    """
+
+    columns: dict[str, NDArray[Any]]
+    extras: dict[str, NDArray[Any]]
+
+    @property
+    def length(self) -> int:
+        """Number of frames T."""
+        return len(next(iter(self.columns.values())))
+
+
+class Video(NamedTuple):
+    """A camera.
+
+    Attributes:
+        key: Name of the feature, ``observation.images.`` and the camera's.
+        size: Width and height, pixels.
+        frames: Draws the frames of an episode, given its number.
+    """
+
+    key: str
+    size: tuple[int, int]
+    frames: Callable[[int], Iterable[NDArray[np.uint8]]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Layout:
+    """A data set to write.
+
+    Attributes:
+        fps: Frames per second.
+        robot: Name of the robot.
+        task: What was to be done, the same in all episodes.
+        features: Columns of the frames.
+        episodes: The frames.
+        videos: The cameras.
+    """
+
+    fps: int
+    robot: str
+    task: str
+    features: dict[str, Feature]
+    episodes: Sequence[EpisodeFrames]
+    videos: Sequence[Video] = ()
+
+    def __post_init__(self) -> None:
+        """Check names.
+
+        Raises:
+            InvalidInputError: If one has a slash, which LeRobot reserves.
+        """
+        for name in self.features:
+            if "/" in name or name in INDICES:
+                raise InvalidInputError(
+                    "LeRobot feature", f"a name without '/', and none of {', '.join(INDICES)}", name
+                )
+
+    @cached_property
+    def starts(self) -> NDArray[np.int64]:
+        """Number of the first frame of each episode, and behind them that of all frames, shape (N + 1,)."""
+        return np.cumsum([0, *(episode.length for episode in self.episodes)])
+
+    @cached_property
+    def files(self) -> list[int]:
+        """Number of the file that each episode is in; none is much larger than `DATA_MB`."""
+        a_frame = sum(feature.size for feature in self.features.values())
+        full = (self.starts[:-1] * a_frame / (DATA_MB * 2**20)).astype(np.int64)
+        consecutive: list[int] = np.unique(full, return_inverse=True)[1].tolist()
+        return consecutive
+
+
+def file_place(what: str, file: int) -> dict[str, int]:
+    """Say in the table of episodes' words where a file is."""
+    return {f"{what}/chunk_index": file // FILES_A_CHUNK, f"{what}/file_index": file % FILES_A_CHUNK}
+
+
+def file_path(template: str, file: int, key: str = "") -> str:
+    """Return where a file is, below the data set's folder."""
+    return template.format(chunk_index=file // FILES_A_CHUNK, file_index=file % FILES_A_CHUNK, video_key=key)
+
+
+def import_pyarrow() -> Any:
+    """Return pyarrow, with its Parquet part imported.
+
+    Raises:
+        MissingDependencyError: If it is not installed.
+    """
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise MissingDependencyError("pyarrow", "lerobot", "A LeRobot data set") from None
+    return pyarrow
