@@ -66,13 +66,11 @@ def _policy_row_block(
                 for u in range(width):  # no branches, no calls: eight queries go through at once
                     e0 = qx[u] * x0 + (qy[u] * y0 + z0)
                     e1 = qx[u] * x1 + (qy[u] * y1 + z1)
-                    small, large = (e1, e0) if e1 < e0 else (e0, e1)
-                    old, runner = best[u], second[u]
-                    loser = old if small < old else small
-                    runner = large if large < runner else runner
-                    second[u] = loser if loser < runner else runner
-                    index[u] = (v1 if e1 < e0 else v0) if small < old else index[u]
-                    best[u] = small if small < old else old
+                    small, large, near = min(e0, e1), max(e0, e1), v1 if e1 < e0 else v0
+                    old, known = best[u], index[u]
+                    second[u] = min(min(second[u], large), max(old, small))
+                    index[u] = near if small < old else known
+                    best[u] = min(old, small)
             for u in range(width):
                 index[u] = -1 if second[u] - best[u] < doubt else index[u]
             _mean_squared_angles(t, k, paths, objects, index, out)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from signimit.exceptions import MissingDependencyError
-from signimit.study.scaling import STEPS, Measurement
+from signimit.study.scaling import CODES, STEPS, Measurement
 from signimit.study.scoring import Calibration
 from signimit.study.tables import LessonRow, Row
 
@@ -75,14 +75,15 @@ def draw_lessons(rows: Sequence[LessonRow]) -> Figure:
 
 
 def draw_growth(measurements: Sequence[Measurement]) -> Figure:
-    """Draw time and memory against the number of demonstrations."""
+    """Draw time and memory against the number of demonstrations, with the extra ``fast`` and without."""
     figure = Figure(figsize=(9, 4), layout="constrained")
     panels = figure.subplots(1, 2)
     for step, colour in zip(STEPS, (BLUE, GREY, BROWN), strict=True):
-        mine = [m for m in measurements if m.step == step]
-        count = [m.demonstrations for m in mine]
-        panels[0].loglog(count, [m.processor_seconds for m in mine], "o-", color=colour, label=step)
-        panels[1].loglog(count, [max(m.megabytes, 0.1) for m in mine], "o-", color=colour)
+        for code, style in zip(CODES, ("o-", "o:"), strict=True):
+            mine = [m for m in measurements if (m.step, m.code) == (step, code)]
+            count = [m.demonstrations for m in mine]
+            panels[0].loglog(count, [m.processor_seconds for m in mine], style, color=colour, label=f"{step}, {code}")
+            panels[1].loglog(count, [max(m.megabytes, 0.1) for m in mine], style, color=colour)
     panels[0].set(xlabel="demonstrations", ylabel="processor seconds")
     panels[1].set(xlabel="demonstrations", ylabel="memory above the start, MB")
     panels[0].legend(fontsize=8, frameon=False)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import multiprocessing
 import resource
+import sys
 import time
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -20,6 +22,7 @@ from signimit.traces import make_trace, trace_distances
 
 SAMPLES = 40
 STEPS = ("distances of drawings", "distances of policies", "learning")
+CODES = ("numba", "numpy")  # with the extra ``fast``, and without
 
 
 class Measurement(NamedTuple):
@@ -28,6 +31,7 @@ class Measurement(NamedTuple):
     Attributes:
         demonstrations: N.
         step: One of `STEPS`.
+        code: One of `CODES`; small steps are done by numpy anyway.
         seconds: Wall-clock time, which what else the machine does makes longer.
         processor_seconds: Time of all processors together.
         megabytes: How much the peak of resident memory grew above what the process had before.
@@ -35,13 +39,14 @@ class Measurement(NamedTuple):
 
     demonstrations: int
     step: str
+    code: str
     seconds: float
     processor_seconds: float
     megabytes: float
 
 
 def measure_growth(counts: Sequence[int], seconds: float, seed: int = 0) -> Iterator[Measurement]:
-    """Measure every step at every size, each in a process of its own; yields as they end.
+    """Measure every step at every size with each code, each in a process of its own; yields as they end.
 
     Args:
         counts: Numbers of demonstrations, ascending.
@@ -49,10 +54,10 @@ def measure_growth(counts: Sequence[int], seconds: float, seed: int = 0) -> Iter
         seed: Of the session.
     """
     context = multiprocessing.get_context("spawn")
-    for step in STEPS:
+    for step, code in itertools.product(STEPS, CODES):
         for count in counts:
             with context.Pool(1) as pool:
-                measured = pool.apply(_measure, (count, step, seed))
+                measured = pool.apply(_measure, (count, step, code, seed))
             yield measured
             if measured.processor_seconds > seconds:
                 break
@@ -68,7 +73,9 @@ def compose_many(count: int, seed: int) -> DemonstrationSet:
     return DemonstrationSet(demonstrations[:count])
 
 
-def _measure(count: int, step: str, seed: int) -> Measurement:
+def _measure(count: int, step: str, code: str, seed: int) -> Measurement:
+    if code == "numpy":
+        sys.modules["numba"] = None  # type: ignore[assignment]  # as if the extra were not installed
     demonstrations = compose_many(count, seed)
     before, start, busy = _peak(), time.perf_counter(), time.process_time()
     if step == "learning":
@@ -78,7 +85,7 @@ def _measure(count: int, step: str, seed: int) -> Measurement:
     else:
         trace_distances([make_trace(d.hand, d.times) for d in demonstrations], demonstrations.objects)
     seconds, worked = time.perf_counter() - start, time.process_time() - busy
-    return Measurement(count, step, round(seconds, 4), round(worked, 4), round(_peak() - before, 1))
+    return Measurement(count, step, code, round(seconds, 4), round(worked, 4), round(_peak() - before, 1))
 
 
 def _peak() -> float:
