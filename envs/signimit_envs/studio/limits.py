@@ -31,6 +31,8 @@ class Limits:
         title: Characters of a session's title.
         objects: Objects in a scene.
         drawn: Demonstrations in a figure.
+        waiting: Figures and films that wait to be made.
+        connections: Connections at once.
     """
 
     body: int = 4 * 2**20
@@ -41,7 +43,7 @@ class Limits:
     points: int = 5000
     seconds: float = 600.0
     coordinate: float = 1e6
-    demonstrations: int = 200
+    demonstrations: int = 100
     answers: int = 500
     events: int = 5000
     sessions: int = 500
@@ -52,6 +54,8 @@ class Limits:
     title: int = 80
     objects: int = OBJECT_COUNTS[-1]
     drawn: int = 60
+    waiting: int = 8
+    connections: int = 100
 
 
 LIMITS = Limits()

@@ -100,6 +100,7 @@ class NewDemonstration(Revised):
     signs: Utterance
     hand: StrokeMessage
     prompted: bool = True  # whether it is what the prompt asked for
+    by: Literal["person", "built-in people", "person and built-in people"] = "person"
 
     def hand_stroke(self) -> Stroke:
         """Return the hand's path.

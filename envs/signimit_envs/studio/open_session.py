@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import functools
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Executor
 
@@ -14,6 +15,8 @@ from signimit_envs.studio.history import History, after
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.shelf import Shelf
 from signimit_envs.studio.understanding import Understood, understand
+
+_REMEMBERED = 8  # states of the demonstrations whose models are kept
 
 
 class StaleRevisionError(SignimitError, ValueError):
@@ -43,6 +46,7 @@ class OpenSession:
         self._shelf, self._learner = shelf, learner
         self._lock = asyncio.Lock()
         self._understood: Understood | None = None
+        self._remembered: deque[Understood] = deque(maxlen=_REMEMBERED)
 
     @property
     def created(self) -> Created:
@@ -121,8 +125,13 @@ class OpenSession:
         return following
 
     async def _understand(self, history: History) -> Understood:
+        for known in self._remembered:  # undo and redo bring back what was understood before
+            if known.shown is history.shown:
+                return known
         work = functools.partial(understand, history, self._understood)
-        return await asyncio.get_running_loop().run_in_executor(self._learner, work)
+        understood = await asyncio.get_running_loop().run_in_executor(self._learner, work)
+        self._remembered.append(understood)
+        return understood
 
     def _prepare_policies(self, understood: Understood) -> None:
         """Make all policies before anybody has to wait for one; whoever changes the session again comes first."""

@@ -101,6 +101,7 @@ def _make_server(plan: StudioPlan, listener: socket.socket) -> tuple[uvicorn.Ser
         ws="websockets-sansio",
         ws_max_size=4 * LIMITS.message,
         ws_per_message_deflate=False,
+        limit_concurrency=LIMITS.connections,
         timeout_graceful_shutdown=2,
     )
     name = LOCAL if plan.host in _EVERYWHERE else plan.host

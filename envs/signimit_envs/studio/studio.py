@@ -22,6 +22,7 @@ from signimit_envs.studio.belief import answer_text
 from signimit_envs.studio.camera import Camera
 from signimit_envs.studio.events import Asked, Created, Signs
 from signimit_envs.studio.history import History
+from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.live_arm import Errand, LiveArm, TrackPart
 from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.shelf import Shelf
@@ -34,6 +35,10 @@ _log = logging.getLogger(__name__)
 
 class NotHereError(LookupError):
     """There is no such session, demonstration or answer."""
+
+
+class BusyError(RuntimeError):
+    """Too much is being made already."""
 
 
 class Studio:
@@ -54,6 +59,7 @@ class Studio:
         self.arm = LiveArm(self._record)
         self.camera = Camera(lambda: self.arm.state, lambda: self.viewers.watching, self.viewers.publish)
         self.demo: str | None = None
+        self._waiting = 0
         self._rng = np.random.default_rng(seed)
         self._learner = ThreadPoolExecutor(1, "learner")
         self._recorder = ThreadPoolExecutor(1, "recorder")
@@ -130,8 +136,18 @@ class Studio:
         return numbers[0]
 
     async def develop(self, work: Callable[[], Result]) -> Result:
-        """Make a figure or a film: one at a time, or the arm would get too little of the processor."""
-        return await asyncio.get_running_loop().run_in_executor(self._darkroom, work)
+        """Make a figure or a film: one at a time, or the arm would get too little of the processor.
+
+        Raises:
+            BusyError: If too many wait already.
+        """
+        if self._waiting >= LIMITS.waiting:
+            raise BusyError(f"At most {LIMITS.waiting} figures and films are made at once; try again.")
+        self._waiting += 1
+        try:
+            return await asyncio.get_running_loop().run_in_executor(self._darkroom, work)
+        finally:
+            self._waiting -= 1
 
     def changed(self, session: OpenSession) -> None:
         """Tell all pages that a session is not what it was."""

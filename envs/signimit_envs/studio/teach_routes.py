@@ -77,7 +77,7 @@ async def demonstrate(studio: TheStudio, session_id: SessionId, body: NewDemonst
     """Add a demonstration, made in the scene that the session said comes next."""
     session = await studio.open(session_id)
     prompt = _prompt(session) if body.prompted else None
-    shown = Shown(signs_of(body.signs), session.understood.objects, body.hand_stroke(), prompt)
+    shown = Shown(signs_of(body.signs), session.understood.objects, body.hand_stroke(), prompt, body.by)
     return await _edited(studio, session, body.revision, Demonstrated((shown,)))
 
 
@@ -86,7 +86,8 @@ async def redraw(studio: TheStudio, session_id: SessionId, number: Number, body:
     """Put another drawing in the place of a demonstration, in its scene."""
     session = await studio.open(session_id)
     old = _existing(session, number)
-    again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), old.prompt if body.prompted else None)
+    prompt = old.prompt if body.prompted else None
+    again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), prompt, body.by)
     return await _edited(studio, session, body.revision, Redrawn(number, again))
 
 

@@ -49,7 +49,7 @@ def understand(history: History, before: Understood | None) -> Understood:
     rng = np.random.default_rng([history.created.seed, 1, len(history.shown)])
     hand, scenes = sample_hand(rng), np.array([sample_scene(rng, history.created.objects) for _ in range(_SCENES)])
     if not history.shown:
-        return Understood((), None, None, scenes[0], hand)
+        return Understood(history.shown, None, None, scenes[0], hand)
     start = time.perf_counter()
     try:
         model = _learned(history.shown, before)

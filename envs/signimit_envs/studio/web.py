@@ -31,7 +31,7 @@ from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.messages import complaint
 from signimit_envs.studio.open_session import StaleRevisionError
 from signimit_envs.studio.prompts import FREE, LANGUAGES
-from signimit_envs.studio.studio import NotHereError, Studio
+from signimit_envs.studio.studio import BusyError, NotHereError, Studio
 
 MEDIA_TYPES = {
     ".html": "text/html",
@@ -160,6 +160,10 @@ def _tell_errors(app: FastAPI) -> None:
     @app.exception_handler(Exception)
     async def failed(request: Request, error: Exception) -> JSONResponse:
         return refused(500, "The studio failed; its log says how.")
+
+    @app.exception_handler(BusyError)
+    async def busy(request: Request, error: BusyError) -> JSONResponse:
+        return refused(429, str(error))
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> JSONResponse:

@@ -99,7 +99,7 @@ def shown() -> Callable[[], Shown]:
 
     def make() -> Shown:
         rng = np.random.default_rng(next(numbers))
-        strokes = [Stroke(np.cumsum(rng.normal(0, 0.02, (9, 2)), axis=0), np.arange(9) * 0.1) for _ in range(3)]
+        strokes = [Stroke(np.cumsum(rng.normal(0, 0.02, (9, 2)), axis=0), np.linspace(0, 1, 9)) for _ in range(3)]
         return Shown((strokes[0], strokes[1]), rng.uniform(-0.2, 0.2, (3, 2)), strokes[2])
 
     return make

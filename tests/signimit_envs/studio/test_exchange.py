@@ -81,6 +81,6 @@ def test_more_than_could_have_been_drawn_here_is_refused(shown: Make) -> None:
     far = replace(shown(), objects=np.full((3, 2), 50.0) + np.arange(6).reshape(3, 2))
     with pytest.raises(InvalidInputError, match="demonstration 0: expected objects and hand within"):
         import_bytes("strokes.csv", export_bytes("strokes.csv", [far], None))
-    many = [shown()] * 201
-    with pytest.raises(InvalidInputError, match="at most 200 demonstrations"):
+    many = [shown()] * 101
+    with pytest.raises(InvalidInputError, match="at most 100 demonstrations"):
         import_bytes("demonstrations.npz", export_bytes("demonstrations.npz", many, None))

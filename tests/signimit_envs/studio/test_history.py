@@ -107,5 +107,6 @@ def test_undo_is_what_a_list_of_snapshots_would_give(deeds: list[str]) -> None:
 
 
 def _shown_once() -> Shown:
-    stroke = Stroke(np.arange(6).reshape(3, 2), np.arange(3))
-    return Shown((stroke, stroke), np.arange(6).reshape(3, 2), stroke)
+    places = np.arange(6.0).reshape(3, 2)
+    stroke = Stroke(places, np.arange(3.0))
+    return Shown((stroke, stroke), places, stroke)

@@ -121,7 +121,8 @@ def test_what_cannot_be_learned_from_is_said_and_can_be_undone(
 
 
 def test_prompts_ask_for_everything_that_is_to_be_seen_twice_and_then_again() -> None:
-    language, prompts = LANGUAGES["paper"], []
+    language = LANGUAGES["paper"]
+    prompts: list[Request] = []
     for left in [*range(12, 0, -1), 0, 0]:
         following = next_request(language, 5, prompts)
         assert following.left == left

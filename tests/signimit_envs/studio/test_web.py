@@ -12,6 +12,7 @@ import pytest
 import signimit as si
 from signimit_envs.rendering import choose_backend
 from signimit_envs.studio.exchange import FORMATS
+from signimit_envs.studio.limits import Limits
 from signimit_envs.studio.stand_ins import templates
 
 Json = dict[str, Any]
@@ -76,6 +77,24 @@ def test_undo_redo_redraw_and_delete_change_the_belief_with_the_demonstrations(p
     assert len(session["belief"]["focus"]) == 1
     refused = page.ask("DELETE", f"{base}/demonstrations/7?revision={session['revision']}")
     assert (refused.status_code, refused.json()) == (404, {"error": "There is no such demonstration."})
+
+
+def test_undo_brings_back_what_was_believed_without_learning_again(
+    page: Any, session: Json, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = page.teach(session, 1)
+    after = page.teach(before, 1)
+    monkeypatch.setattr("signimit_envs.studio.open_session.understand", None)
+    undone = page.post(f"sessions/{session['id']}/undo", {"revision": after["revision"]})
+    assert undone["belief"] == before["belief"]
+    assert undone["next"] == before["next"]
+    redone = page.post(f"sessions/{session['id']}/redo", {"revision": undone["revision"]})
+    assert redone["belief"] == after["belief"]
+
+
+def test_too_many_figures_at_once_are_refused(page: Any, taught_id: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit_envs.studio.studio.LIMITS", Limits(waiting=0))
+    assert page.ask("GET", f"sessions/{taught_id}/similarities").status_code == 429
 
 
 def test_what_was_not_prompted_keeps_no_prompt(page: Any, session: Json) -> None:
@@ -168,15 +187,20 @@ def test_sessions_are_listed_the_newest_first_with_their_titles(page: Any) -> No
     assert {"Grandfather's signs"} == {one["title"] for one in listed if one["id"] == session["id"]}
 
 
+@pytest.fixture
+def exported_id(page: Any, session: Json) -> str:
+    return str(page.teach(session, 2)["id"])
+
+
 @pytest.mark.parametrize("name", FORMATS)
-def test_an_exported_session_can_be_imported(name: str, page: Any, taught_id: str) -> None:
+def test_an_exported_session_can_be_imported(name: str, page: Any, exported_id: str) -> None:
     pytest.importorskip("defusedxml", reason="InkML needs signimit[strokes]")
-    exported = page.ask("GET", f"sessions/{taught_id}/export/{name}")
+    exported = page.ask("GET", f"sessions/{exported_id}/export/{name}")
     assert exported.headers["content-disposition"].startswith("attachment; filename=")
     imported = page.ask("POST", f"import?format={name}&title=again", content=exported.content)
     assert imported.status_code == 201, imported.text
     assert imported.json()["title"] == "again"
-    assert imported.json()["belief"]["labels"] == page.get(f"sessions/{taught_id}")["belief"]["labels"]
+    assert imported.json()["belief"]["labels"] == page.get(f"sessions/{exported_id}")["belief"]["labels"]
 
 
 def test_a_broken_import_leaves_no_session(page: Any) -> None:
