@@ -139,8 +139,8 @@ def cross_distances(query: NDArray[np.float32], targets: NDArray[np.float32]) ->
     for start in range(0, len(flat), step):
         block = flat[start : start + step]
         squares = (block * block).sum(axis=2, keepdims=True)
-        gaps = np.concatenate([block, squares], axis=2).reshape(-1, features + 1) @ factors
-        best = gaps.reshape(len(block), samples, -1).min(axis=1) + asked_squares
+        gaps = np.concatenate([block, squares], axis=2) @ factors  # small products: none is worth a thread of its own
+        best = gaps.min(axis=1) + asked_squares
         best = np.sqrt(np.maximum(best, 0.0))
         out[start : start + step] = best.reshape(len(block), frames, samples).mean(axis=2)
     return np.asarray(out.reshape(targets.shape[0], targets.shape[1], frames).transpose(0, 2, 1))

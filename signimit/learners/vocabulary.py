@@ -106,13 +106,12 @@ def cross_sign_distances(first: SignFeatures, second: SignFeatures) -> NDArray[n
 
 
 def _squares(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Squared distances between all samples of signs, (A, 32, 4) and (B, 32, 4), shape (32, 32, A B)."""
+    """Squared distances between all samples of signs, (A, 32, 4) and (B, 32, 4), shape (32 of b, 32 of a, A B)."""
     one_a, one_b = np.ones((*a.shape[:2], 1)), np.ones((*b.shape[:2], 1))
     left = np.concatenate([-2 * a, one_a, (a * a).sum(-1, keepdims=True)], axis=2)
     right = np.concatenate([b, (b * b).sum(-1, keepdims=True), one_b], axis=2)
-    squares = left.reshape(-1, left.shape[2]) @ right.transpose(2, 1, 0).reshape(left.shape[2], -1)
-    by_sample = squares.reshape(len(a), _SAMPLES, _SAMPLES, len(b)).transpose(1, 2, 0, 3)
-    return np.asarray(np.maximum(by_sample, 0.0).reshape(_SAMPLES, _SAMPLES, -1))
+    squares = left[:, None] @ right.transpose(1, 2, 0)  # (A, 32, 32, B); small products: none is worth a thread
+    return np.asarray(np.maximum(squares, 0.0).transpose(1, 2, 0, 3).reshape(_SAMPLES, _SAMPLES, -1))
 
 
 @dataclass(frozen=True, eq=False)
