@@ -34,6 +34,7 @@ from signimit.learners.search import (
     merge_groups,
     pairs_of_equals,
 )
+from signimit.learners.splitting import take_apart
 from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
 from signimit.traces import make_trace, trace_distances
 from signimit.understanding import Understanding
@@ -112,8 +113,17 @@ def _conclude(seen: Seen) -> Understanding:
     weighing = Weighing(seen)
     orders = _word_orders(len(seen.signs))
     best = [max(_hypotheses(weighing, order), key=lambda h: h.score) for order in orders]
-    chosen = max(best, key=lambda h: h.score)
+    chosen = _apart(seen, max(best, key=lambda h: h.score))
     return _understanding(weighing, chosen, {h.order: h.score for h in best})
+
+
+def _apart(seen: Seen, chosen: Hypothesis) -> Hypothesis:
+    """Take apart what is two movements, though no pair shows it."""
+    labels, focus, score = chosen.explanation
+    everyone = np.arange(len(labels))
+    drawings = seen.drawings[everyone[:, None], everyone, focus[:, None], focus]
+    split = take_apart(labels, drawings, seen.signs[chosen.order.movement])
+    return chosen._replace(explanation=Explanation(split, focus, score))
 
 
 def _word_orders(words: int) -> list[WordOrder]:

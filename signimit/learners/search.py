@@ -54,7 +54,12 @@ def score_explanation(evidence: PairEvidence, labels: NDArray[np.int64], focus: 
     total = (evidence.drawing[t, k, focus[t], focus[k]] + evidence.movement_word[t, k]).sum()
     total += evidence.focus_word[pairs_of_equals(focus)].sum() + evidence.place[np.arange(len(labels)), focus].sum()
     sizes = np.unique(labels, return_counts=True)[1]
-    return float(total - _price(len(sizes), (sizes**2).sum(), len(labels)))
+    return float(total - division_price(sizes))
+
+
+def division_price(sizes: NDArray[np.int64]) -> float:
+    """Price of a division into movements of these sizes, shape (K,), nats."""
+    return float(_price(len(sizes), (sizes**2).sum(), int(sizes.sum())))
 
 
 def pairs_of_equals(labels: NDArray[np.int64]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

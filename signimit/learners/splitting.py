@@ -1,0 +1,82 @@
+"""Takes movements apart that are two: akin ones, asked for by akin signs, whose pairs all look like equals.
+
+The objective of `signimit.learners.search` looks at one pair at a time, against what is typical of the whole session. A
+circle and a rectangle by somebody who draws both alike are then equal, pair by pair, and only the pattern tells: pairs
+within each half are closer than pairs across, in the drawings and in the words.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.cluster.hierarchy import fcluster, linkage
+from scipy.spatial.distance import squareform
+
+from signimit.learners.evidence import DRAWINGS, SIGNS
+from signimit.learners.search import division_price
+
+_LEAST = 2  # members of each half; a single odd demonstration is no movement
+_WORD = 0.35  # weight of the words' contrast against the drawings'
+_MOST_WORD = 0.6  # that counts of it: many write one sign in two ways
+_EVEN_ODDS = 0.6  # contrast at which one movement and two are equally likely
+_SLOPE = 10.0  # nats for each unit of contrast
+_MOST = 5.0  # nats that a contrast may be worth; more would be sure of what was never measured
+
+
+def take_apart(
+    labels: NDArray[np.int64], drawings: NDArray[np.float64], words: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """Split, again and again, the movement whose halves differ most, while that is worth a movement more.
+
+    Args:
+        labels: Movement of each demonstration, shape (N,).
+        drawings: Distances of the drawings, seen from their foci, shape (N, N).
+        words: Distances of the movement words, shape (N, N).
+
+    Returns:
+        Labels, shape (N,); the new movement of a split has the highest number.
+    """
+    logs = [np.log(np.maximum(distances, 1e-9)) for distances in (drawings, words)]
+    while True:
+        found = [_best_split(labels, m, *logs) for m in range(int(labels.max()) + 1)]
+        gain, half = max(found, key=lambda split: split[0])
+        if gain <= 0.0:
+            return labels
+        labels = labels.copy()
+        labels[half] = labels.max() + 1
+
+
+def _best_split(
+    labels: NDArray[np.int64], movement: int, drawings: NDArray[np.float64], words: NDArray[np.float64]
+) -> tuple[float, NDArray[np.intp]]:
+    """Return what it is worth to split a movement in two, nats, and one half of it."""
+    members = np.flatnonzero(labels == movement)
+    if len(members) < 2 * _LEAST:
+        return -np.inf, members
+    drawn, said = (logs[np.ix_(members, members)] for logs in (drawings, words))
+    second = _halves(drawn / DRAWINGS.equal_spread + said / SIGNS.equal_spread)
+    if min(second.sum(), (~second).sum()) < _LEAST:
+        return -np.inf, members
+    contrast = _contrast(drawn, second) + _WORD * min(_contrast(said, second), _MOST_WORD)
+    evidence = min(_SLOPE * (contrast - _EVEN_ODDS), _MOST)
+    return evidence - max(_price_of_split(labels, members[second]), 0.0), members[second]
+
+
+def _halves(distances: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Cut the tree of average distances, shape (n, n), in two; True for one half."""
+    condensed = squareform(distances, checks=False)
+    tree = linkage(condensed - condensed.min(), "average")
+    return np.asarray(fcluster(tree, 2, "maxclust") == 2)
+
+
+def _contrast(logs: NDArray[np.float64], second: NDArray[np.bool_]) -> float:
+    """How much farther apart pairs across are than pairs within, in the mean of log distances, shape (n, n)."""
+    upper = np.triu(np.ones_like(logs, dtype=bool), 1)
+    across = second[:, None] != second[None]
+    return float(logs[across].mean() - logs[upper & ~across].mean())
+
+
+def _price_of_split(labels: NDArray[np.int64], half: NDArray[np.intp]) -> float:
+    split = labels.copy()
+    split[half] = labels.max() + 1
+    return division_price(np.bincount(split)) - division_price(np.bincount(labels))

@@ -1,0 +1,71 @@
+"""Two movements that were taken for one come apart; one that is one stays, worked by hand."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from signimit.learners.splitting import take_apart
+
+NEAR, AKIN, FAR = np.exp(-1.2), np.exp(-0.6), 1.0
+
+
+def distances(truth: list[int], akin: tuple[int, int] = (0, 1), across: float = AKIN) -> NDArray[np.float64]:
+    """Equals are near, two kinds are akin, all others are far."""
+    kinds = np.array(truth)
+    found = np.where(kinds[:, None] == kinds[None], NEAR, FAR)
+    first, second = akin
+    found[np.ix_(kinds == first, kinds == second)] = found[np.ix_(kinds == second, kinds == first)] = across
+    np.fill_diagonal(found, 0.0)
+    return found
+
+
+TRUTH = [0, 1, 0, 1, 2, 2, 0, 1, 2]  # three of each
+TAKEN = np.array([0, 0, 0, 0, 1, 1, 0, 0, 1])  # 0 and 1 for one
+
+
+def test_a_movement_whose_halves_differ_in_drawings_and_words_is_two() -> None:
+    split = take_apart(TAKEN, distances(TRUTH), distances(TRUTH))
+    assert split.max() == 2
+    assert len(set(zip(split.tolist(), TRUTH, strict=True))) == 3
+
+
+def test_words_alone_take_nothing_apart() -> None:
+    alike = distances(TRUTH, across=NEAR)
+    assert take_apart(TAKEN, alike, distances(TRUTH, across=FAR)).tolist() == TAKEN.tolist()
+
+
+def test_a_contrast_of_six_tenths_is_the_limit() -> None:
+    alike = distances(TRUTH, across=NEAR)
+    for contrast, movements in ((0.59, 2), (0.61, 3)):
+        drawings = distances(TRUTH, across=NEAR * np.exp(contrast))
+        assert take_apart(TAKEN, drawings, alike).max() + 1 == movements
+
+
+def test_a_weak_contrast_does_not_make_movements_of_half_the_usual_size() -> None:
+    truth = [0, 0, 1, 1] + [2] * 4 + [3] * 4
+    taken = np.array([0] * 4 + [1] * 4 + [2] * 4)
+    drawings = distances(truth, across=NEAR * np.exp(0.9))
+    # a fourth movement: its price 3, and unequal sizes 3 * (4 * (4 + 4 + 16 + 16) / 12 - 12) = 4; evidence 10 * 0.3
+    assert take_apart(taken, drawings, distances(truth, across=NEAR)).tolist() == taken.tolist()
+
+
+@pytest.mark.parametrize("taken", [[0, 0, 0], [0, 0, 1, 1, 2]])
+def test_what_has_fewer_than_four_members_stays(taken: list[int]) -> None:
+    apart = np.full((len(taken), len(taken)), FAR)
+    assert take_apart(np.array(taken), apart, apart).tolist() == taken
+
+
+def test_one_odd_demonstration_is_no_movement() -> None:
+    truth = [0, 1, 1, 1, 1]
+    assert take_apart(np.zeros(5, dtype=np.int64), distances(truth, across=FAR), distances(truth)).max() == 0
+
+
+@settings(deadline=None, derandomize=True, max_examples=30)
+@given(st.permutations(range(len(TRUTH))))
+def test_the_order_of_demonstrations_does_not_matter(order: list[int]) -> None:
+    both = distances(TRUTH)
+    moved = take_apart(TAKEN[order], both[np.ix_(order, order)], both[np.ix_(order, order)])
+    straight = take_apart(TAKEN, both, both)[order]
+    assert (moved[:, None] == moved).tolist() == (straight[:, None] == straight).tolist()
