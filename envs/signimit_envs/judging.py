@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from signimit.evaluation import (
     NOTHING,
     TOLERANCE,
+    Template,
     movement_error,
     performed,
     prepare_templates,
@@ -78,12 +79,17 @@ class Judge:
     def start(self, request: Request, objects: NDArray[np.float64], hand: NDArray[np.float64]) -> None:
         """Begin a new episode."""
         self._request, self._objects = request, objects
-        drawing = self._prepared[request.movement][0]
+        drawing = self.drawing
         self._sought = (drawing.points[:: 2 * _THIN] + objects[request.focus]) @ _COMPLEX
         self._farthest = _ROOM * 2 * drawing.half_size * TOLERANCE
         self._path.clear()
         self._path.append(hand)
         self._next, self.performance = _FIRST, NOTHING
+
+    @property
+    def drawing(self) -> Template:
+        """How the requested movement was drawn, in the object's frame."""
+        return self._prepared[self._request.movement][0]
 
     @property
     def done(self) -> bool:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError
 from signimit_envs.scene import CONTROL_RATE
-from signimit_envs.tabletop_hand import TabletopHandEnv
+from signimit_envs.tabletop import TabletopEnv
 
 Policy = Callable[[NDArray[np.float64]], ArrayLike]
 
@@ -39,7 +39,8 @@ def reproduce(
     """Let a policy move the simulated hand.
 
     Args:
-        env: ``signimit/TabletopHand-v0``, wrapped or not; it is reset, and not closed.
+        env: ``signimit/TabletopHand-v0``, or another with ``control="hand"``, wrapped or not; it is reset, and not
+            closed.
         policy: Hand position (2,), m, to hand velocity (2,), m/s. One that keeps a state has ``start() -> state`` and
             ``step(state, hand) -> (state, velocity)``, and these are used.
         objects: Where to put the objects, shape (O, 2), m.
@@ -52,22 +53,23 @@ def reproduce(
             finite.
     """
     arm = env.unwrapped
-    if not isinstance(arm, TabletopHandEnv):
-        raise InvalidInputError("environment", "signimit/TabletopHand-v0", type(arm).__name__)
-    observation, _ = arm.reset(options={"objects": objects, "hand": hand})
+    if not isinstance(arm, TabletopEnv) or arm.control != "hand":
+        found = f"control={arm.control!r}" if isinstance(arm, TabletopEnv) else type(arm).__name__
+        raise InvalidInputError("environment", "signimit/TabletopHand-v0, or control='hand'", found)
+    arm.reset(options={"objects": objects, "hand": hand})
     move = hand_velocities(policy)
-    path, commanded = [observation["hand"]], []
+    path, commanded = [arm.hand], []
     for _ in range(round(seconds * CONTROL_RATE)):
         if each_step is not None:
             each_step()
         velocity = move(path[-1])
         # A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
         action = velocity / max(arm.max_hand_speed, float(np.abs(velocity).max()))
-        observation, _, terminated, _, _ = arm.step(action)
+        terminated = arm.step(action)[2]
         if terminated:
             break
         commanded.append(path[-1] + action * (arm.max_hand_speed / CONTROL_RATE))
-        path.append(observation["hand"])
+        path.append(arm.hand)
     if each_step is not None:
         each_step()
     return HandTrack(np.array(path), np.array(commanded).reshape(-1, 2))

@@ -46,8 +46,7 @@ def scene_xml(objects: int = 3) -> str:
     Raises:
         InvalidInputError: If the number of objects is not 2 to 6.
     """
-    if objects not in OBJECT_COUNTS:
-        raise InvalidInputError("objects", f"{OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]}", repr(objects))
+    check_object_count(objects)
     root = ElementTree.fromstring((resources.files(signimit_assets) / "tabletop.xml").read_bytes())
     (world,) = root.iter("worldbody")
     for body in world.findall("body[@mocap='true']")[objects:]:
@@ -55,6 +54,16 @@ def scene_xml(objects: int = 3) -> str:
     for number in range(3, objects):
         world.append(_extra_object(number))
     return ElementTree.tostring(root, encoding="unicode")
+
+
+def check_object_count(objects: object) -> None:
+    """Refuse a number of objects that there is no scene for.
+
+    Raises:
+        InvalidInputError: If it is not 2 to 6.
+    """
+    if not isinstance(objects, int | np.integer) or objects not in OBJECT_COUNTS:
+        raise InvalidInputError("objects", f"{OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]}", repr(objects))
 
 
 def scene_assets() -> dict[str, bytes]:

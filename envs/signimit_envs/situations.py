@@ -17,7 +17,7 @@ from signimit_envs.people import People
 from signimit_envs.scene import TABLE, WORKSPACE
 
 OPTIONS = ("movement", "focus", "objects", "hand", "signs")
-WORDS = 2
+WORDS = 2  # signs of an utterance in the paper's language; a filler makes it three
 
 
 class Situation(NamedTuple):
@@ -27,7 +27,7 @@ class Situation(NamedTuple):
         request: What is asked for.
         objects: Object positions, shape (O, 2), m.
         hand: Position of the hand, shape (2,), m.
-        signs: The signs, shape (2, 64, 2), evenly resampled, centred, within [-1, 1].
+        signs: The signs, shape (W, 64, 2), evenly resampled, centred, within [-1, 1].
     """
 
     request: Request
@@ -61,7 +61,7 @@ def draw_situation(
     )
     places = _inside(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
     hand = _inside(given["hand"], "hand", (2,), WORKSPACE) if "hand" in given else None
-    signs = _given_signs(given["signs"]) if "signs" in given else None
+    signs = _given_signs(given["signs"], people.language.words) if "signs" in given else None
     return Situation(
         request,
         sample_scene(rng, objects) if places is None else places,
@@ -89,15 +89,15 @@ def _inside(value: Any, name: str, shape: tuple[int, ...], half: NDArray[np.floa
     return points
 
 
-def _given_signs(value: Any) -> NDArray[np.float64]:
+def _given_signs(value: Any, words: int) -> NDArray[np.float64]:
     try:
         signs = list(value)
     except TypeError:
         signs = []
-    if len(signs) != WORDS:
+    if len(signs) != words:
         found = f"{len(signs)}" if signs else type(value).__name__
-        raise InvalidInputError("reset option signs", f"{WORDS} strokes of shape (T, 2)", found)
-    out = np.empty((WORDS, SAMPLES, 2))
+        raise InvalidInputError("reset option signs", f"{words} strokes of shape (T, 2)", found)
+    out = np.empty((words, SAMPLES, 2))
     for number, sign in enumerate(signs):
         try:
             out[number] = normalised_sign(getattr(sign, "points", sign))

@@ -1,4 +1,4 @@
-"""`signimit/Tabletop-v0`: signs to obey with a planar arm, commanded joint by joint."""
+"""`signimit/Tabletop-v0`: signs to obey with a planar arm."""
 
 from __future__ import annotations
 
@@ -6,40 +6,49 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import gymnasium as gym
-import mujoco
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, UnknownNameError
-from signimit.signs import SAMPLES
-from signimit_envs.hand_control import HandController, JointCommand
+from signimit.languages import Language
+from signimit_envs.arm import Arm
+from signimit_envs.casting import Source
+from signimit_envs.control import MAX_HAND_SPEED, make_control
+from signimit_envs.hand_control import HandController
 from signimit_envs.judging import Judge
-from signimit_envs.people import MOVEMENTS, People
-from signimit_envs.physics_log import QuietLog
+from signimit_envs.lexicons import choose_language, choose_person
+from signimit_envs.observations import Sight, make_observer
+from signimit_envs.people import People
 from signimit_envs.rendering import OffscreenView, WindowView, has_display
-from signimit_envs.scene import CONTROL_RATE, MAX_JOINT_SPEED, SUBSTEPS, TABLE, compile_scene, object_bodies
-from signimit_envs.situations import WORDS, Situation, draw_situation
-
-Observation = dict[str, NDArray[np.float64]]
+from signimit_envs.rewards import make_reward
+from signimit_envs.scene import CONTROL_RATE, compile_scene
+from signimit_envs.situations import draw_situation
 
 _LEAST_RESIDUAL = 1e-3  # m, farther than this from where it should start the hand is out of reach
 _CAMERAS = ("perspective", "top")
 _MODES = ("rgb_array", "human")
 
 
-class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
+class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
     """Obey two signs, unlabelled strokes, with a planar three-joint arm over a table with coloured objects.
 
-    A synthetic person makes two signs; in this person's language the first names an object and the second a movement
-    about it. Nobody says so: the request behind the signs is in ``info``, for scoring only. Metres, seconds, radians;
-    x right, y away from the arm's base, origin at the middle of the table.
+    A person makes signs; in this person's language one names an object and one a movement about it. Nobody says so:
+    the request behind the signs is in ``info``, for scoring only. Metres, seconds, radians; x right, y away from the
+    arm's base, origin at the middle of the table.
 
     Action space:
-        ``Box(-1, 1, (3,), float32)``: velocities of shoulder, elbow and wrist, in units of 3.5 rad/s, for 1/50 s. What
-        is beyond is clipped; the joints stop at their limits.
+        What is beyond -1 and 1 is clipped; the joints stop at their limits. ``control`` decides what an action is:
+
+        =================== ========================= ================================================== ===========
+        ``control``         space                     meaning of an element, held for 1/50 s             unit of 1
+        =================== ========================= ================================================== ===========
+        ``joint``           Box(-1, 1, (3,), float32) angular velocity of shoulder, elbow and wrist      3.5 rad/s
+        ``hand``            Box(-1, 1, (2,), float32) velocity of the hand along x and y; mink solves    1.2 m/s
+                                                      for the joints, as far as they reach
+        =================== ========================= ================================================== ===========
 
     Observation space:
-        ``Dict`` of finite float64 boxes:
+        ``obs_type="state"``: a ``Dict`` of finite float64 boxes, O objects and W signs:
 
         ==================== ============ =====================================================================
         key                  shape        meaning
@@ -49,17 +58,31 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         ``joints``           (3,)         angles of shoulder, elbow and wrist, rad
         ``joint_velocities`` (3,)         their velocities, rad/s
         ``objects``          (O, 2)       positions of the objects, red, green, blue and so on, m
-        ``signs``            (2, 64, 2)   the two signs, evenly resampled, centred, scaled to [-1, 1]
+        ``signs``            (W, 64, 2)   the signs, evenly resampled, centred, scaled to [-1, 1]
         ==================== ============ =====================================================================
 
+        ``obs_type="pixels"``: ``Box(0, 255, (height, width, 3), uint8)``, one picture. Its upper quarter shows the
+        signs on cards, in order, each stroke from black at its beginning to orange at its end; below is what the camera
+        sees. Velocities are not in a picture: stack frames (`gymnasium.wrappers.FrameStackObservation`).
+
+        ``obs_type="state_pixels"``: the ``Dict`` with that picture as ``pixels``.
+
+        Pictures need OpenGL; without one the first reset raises a `RenderingError`. `render` shows the scene alone:
+        with `gymnasium.wrappers.AddRenderObservation` say ``render_only=False``, or the signs are not observed.
+
     Reward:
-        1 at the step where the request is seen to be fulfilled for the first time, else 0. The path of up to the last
-        12 s is looked at every half second, first after 1.5 s: a look costs ten steps, so the reward may come up to
-        half a second after the deed. `signimit.performed` is the judge.
+        ``reward="sparse"``: 1 at the step where the request is seen to be fulfilled for the first time, else 0. The
+        path of up to the last 12 s is looked at every half second, first after 1.5 s: a look costs ten steps, so the
+        reward may come up to half a second after the deed. `signimit.performed` is the judge.
+
+        ``reward="dense"``: that plus γ Φ(s') - Φ(s), with γ the ``discount``; it leaves optimal policies as they are
+        (Ng, Harada and Russell, ICML 1999). The potential Φ, in [0, 1], is 3/4 of how much of the requested drawing
+        the hand has passed, the drawing's way, plus 1/4 of how close it is to it
+        (`signimit_envs.rewards.Potential`). It is 0 after a blow-up.
 
     Starting state:
         What ``reset(options=...)`` gives of ``movement``, ``focus``, ``objects`` (O, 2), ``hand`` (2,) and ``signs``
-        (two strokes of any length); the rest is drawn: objects and hand within 0.22 m and 0.18 m of the middle, objects
+        (W strokes of any length); the rest is drawn: objects and hand within 0.22 m and 0.18 m of the middle, objects
         at least 0.14 m apart. The arm rests.
 
     Episode end:
@@ -68,15 +91,27 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
     Info:
         ``request`` (movement, focus), ``is_success`` (in this episode so far), ``performance`` (a
         `signimit.Performance`, of the moment of success; movement -1 before), ``ik_residual`` (m, what of the last
-        displacement of the hand was beyond the arm; 0 here), ``physics_error`` (what went wrong; empty if nothing).
+        displacement of the hand was beyond the arm; 0 with joint control), ``physics_error`` (what went wrong; empty if
+        nothing).
 
     Args:
         render_mode: ``"rgb_array"`` or, with a display, ``"human"``.
-        objects: Number of objects, 2 to 6.
-        movements: Labels of the movements that can be asked for, out of `signimit.people.MOVEMENT_LABELS`.
+        objects: Number of objects, 2 to 6; 3 if nothing says otherwise.
+        movements: Labels of the movements that can be asked for, out of `signimit.people.MOVEMENT_LABELS`; the paper's
+            three if nothing says otherwise.
         people_seed: Who signs, and whose drawings the judge compares with.
         camera: ``"perspective"`` or ``"top"``.
-        size: Width and height of frames, pixels, at most 1280.
+        size: Width and height of pictures, rendered or observed, pixels; at most 1280, at least 32 to observe.
+        obs_type: ``"state"``, ``"pixels"`` or ``"state_pixels"``.
+        control: ``"joint"`` or ``"hand"``; the default of ``signimit/TabletopHand-v0`` is the latter.
+        language: A `signimit.languages.Language`, or a mapping of its fields, which an `EnvSpec` can keep as JSON:
+            signs of the objects and of the movements, their order, fillers. It brings its own number of objects and
+            its movements. Left out: digits, the first ones for the objects and the next for the movements, object
+            first. ``prototypes``, ``unseen`` and ``repetitions`` are about demonstrations and do nothing here.
+        signer: Stroke library file with the signs, or the file and a person in it; left out, a synthetic person.
+        mover: The same for the drawings that the judge compares with.
+        reward: ``"sparse"`` or ``"dense"``.
+        discount: The γ of the dense reward; give the agent the same.
 
     Version history:
         v0: first version.
@@ -86,16 +121,25 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         "render_modes": list(_MODES) if has_display() else ["rgb_array"],
         "render_fps": CONTROL_RATE,
     }
-    _action_size: ClassVar[int] = 3
+    max_hand_speed: ClassVar[float] = MAX_HAND_SPEED
+    """Speed in m/s along each axis that an action of 1 stands for with hand control."""
 
     def __init__(
         self,
         render_mode: str | None = None,
-        objects: int = 3,
-        movements: Sequence[str] = MOVEMENTS,
+        objects: int | None = None,
+        movements: Sequence[str] | None = None,
         people_seed: int = 0,
         camera: str = "perspective",
         size: tuple[int, int] = (480, 480),
+        *,
+        obs_type: str = "state",
+        control: str = "joint",
+        language: Language | Mapping[str, Any] | None = None,
+        signer: Source | Sequence[str | None] | str | None = None,
+        mover: Source | Sequence[str | None] | str | None = None,
+        reward: str = "sparse",
+        discount: float = 0.99,
     ) -> None:
         """Build the scene; see the class for the arguments."""
         if render_mode not in (None, *_MODES):
@@ -103,53 +147,49 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         if camera not in _CAMERAS:
             raise UnknownNameError("camera", camera, _CAMERAS)
         self.render_mode = render_mode
-        self.model = compile_scene(objects)
-        self.data = mujoco.MjData(self.model)
-        self.people = People.sample(objects, movements, np.random.default_rng(people_seed))
+        spoken = choose_language(language, objects, movements)
+        self._arm = Arm(compile_scene(spoken.objects))
+        self.model, self.data = self._arm.model, self._arm.data
+        self.people = People.sample(
+            spoken, np.random.default_rng(people_seed), choose_person(signer, "signer"), choose_person(mover, "mover")
+        )
         self.controller = HandController(self.model)
-        self.action_space = gym.spaces.Box(-1.0, 1.0, (self._action_size,), np.float32)
-        self.observation_space = _observation_space(objects)
+        self.control, self._control = control, make_control(control, self.controller)
+        self.action_space = gym.spaces.Box(-1.0, 1.0, (self._control.size,), np.float32)
+        self._observer = make_observer(obs_type, self._arm, spoken.words, Sight(camera, *size))
+        self.observation_space = self._observer.space
         self._judge = Judge(self.people.templates)
-        self._bodies = object_bodies(self.model)
-        self._hand_site = self.model.site("hand").id
-        self._jacobian = np.zeros((3, self.model.nv))
-        self._planar_jacobian = self._jacobian[:2]
-        # Live views: to fetch them from the data in every control step would cost more than to read them.
-        self._qpos, self._qvel, self._ctrl = self.data.qpos, self.data.qvel, self.data.ctrl
-        self._hand = self.data.site_xpos[self._hand_site, :2]
-        self._ranges = self.model.jnt_range.tolist()
-        self._warnings = self.data.warning.number  # a live view; mj_resetData clears it
-        self._speeds = np.full(3, MAX_JOINT_SPEED)
+        self._reward = make_reward(reward, discount)
         self._camera = camera
         self._offscreen = OffscreenView(self.model, *size)
         self._window = WindowView(self.model) if render_mode == "human" else None
 
-    def reset(
-        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
-    ) -> tuple[Observation, dict[str, Any]]:
+    def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Start an episode.
 
         Args:
             seed: Seed of everything that is drawn from now on.
-            options: Any of movement, focus, objects (O, 2), hand (2,) and signs (two strokes); the rest is drawn.
+            options: Any of movement, focus, objects (O, 2), hand (2,) and signs (W strokes); the rest is drawn.
 
         Raises:
             SignimitError: If an option is unknown or cannot be used.
+            RenderingError: If pictures are to be observed and there is no OpenGL.
         """
         super().reset(seed=seed)
-        start = draw_situation(options, self.people, len(self._bodies), self.np_random)
+        start = draw_situation(options, self.people, len(self._arm.object_bodies), self.np_random)
         joints, away = self.controller.posture_at(start.hand)
         if away > _LEAST_RESIDUAL:
             raise InvalidInputError("reset option hand", "a position within the arm's reach", f"{start.hand}")
-        self._situation = start
-        self._quiet_log = QuietLog()
-        self._place(start, joints.tolist())
+        self._request = start.request
+        self._arm.place(start.objects, joints)
         self._judge.start(start.request, start.objects, start.hand)
+        self._reward.start(self._judge.drawing, start.objects[start.request.focus], start.hand)
+        self._observer.start(start)
         if self.render_mode == "human":
             self.render()
-        return self._observation(), self._info(0.0, "")
+        return self._observer.observe(), self._info(0.0, "")
 
-    def step(self, action: ArrayLike) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+    def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Do one control step of 1/50 s.
 
         Args:
@@ -158,15 +198,14 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
         Raises:
             InvalidInputError: If the action has another shape or is not finite.
         """
-        command = self._command(self._checked(action))
-        error = self._simulate(command.velocities)
-        if error:
-            self._place(self._situation, self._last_joints)
-        observation = self._observation()
-        reward = float(not error and self._judge.watch(observation["hand"]))
+        arm = self._arm
+        command = self._control.command(self._checked(action), self.data.qpos)
+        error = arm.track(command.velocities)
+        fulfilled = not error and self._judge.watch(arm.hand)
+        reward = self._reward.of_step(arm.hand, fulfilled, bool(error))
         if self.render_mode == "human":
             self.render()
-        return observation, reward, bool(error), False, self._info(command.residual, error)
+        return self._observer.observe(), reward, bool(error), False, self._info(command.residual, error)
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a frame, shape (height, width, 3), or bring the window up to date.
@@ -182,22 +221,26 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
             return None
         return self._offscreen.frame(self.data, self._camera)
 
+    @property
+    def hand(self) -> NDArray[np.float64]:
+        """Where the hand is, shape (2,), m, whatever is observed; a copy."""
+        return self._arm.hand.copy()
+
     def close(self) -> None:
         """Free windows and OpenGL; may be called again."""
         self._offscreen.close()
+        self._observer.close()
         if self._window is not None:
             self._window.close()
 
-    def _command(self, action: NDArray[np.float64]) -> JointCommand:
-        return JointCommand(np.multiply(action, self._speeds), 0.0)
-
     def _checked(self, action: ArrayLike) -> NDArray[np.float64]:
+        size = self._control.size
         try:
             values = np.asarray(action, dtype=np.float64)
         except (TypeError, ValueError):
             values = np.empty(0)
-        if values.shape != (self._action_size,):
-            raise InvalidInputError("action", f"{self._action_size} numbers in [-1, 1]", repr(action))
+        if values.shape != (size,):
+            raise InvalidInputError("action", f"{size} numbers in [-1, 1]", repr(action))
         for value in values.tolist():  # no comparison holds for NaN; for so few numbers a loop is the fastest
             if not -1.0 <= value <= 1.0:
                 return self._clipped(values)
@@ -205,69 +248,14 @@ class TabletopEnv(gym.Env[dict[str, Any], NDArray[np.float32]]):
 
     def _clipped(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         if not np.isfinite(values).all():
-            raise InvalidInputError("action", f"{self._action_size} finite numbers in [-1, 1]", repr(values))
+            raise InvalidInputError("action", f"{self._control.size} finite numbers in [-1, 1]", repr(values))
         return values.clip(-1.0, 1.0)
-
-    def _simulate(self, velocities: NDArray[np.float64]) -> str:
-        """Track joint velocities for one control step, stopping at the joints' limits; return what went wrong."""
-        self._ctrl[:] = [
-            min(max(velocity, (low - joint) * CONTROL_RATE), (high - joint) * CONTROL_RATE)
-            for velocity, joint, (low, high) in zip(velocities.tolist(), self._qpos.tolist(), self._ranges, strict=True)
-        ]
-        with self._quiet_log:
-            mujoco.mj_step(self.model, self.data, SUBSTEPS)
-        if any(self._warnings.tolist()):
-            return "the physics blew up; the arm was put back where it was before this step"
-        # What mj_step leaves behind was computed before its last integration.
-        mujoco.mj_kinematics(self.model, self.data)
-        mujoco.mj_comPos(self.model, self.data)
-        self._last_joints = self._qpos.tolist()
-        return ""
-
-    def _place(self, start: Situation, joints: list[float]) -> None:
-        """Put objects and a resting arm in their places."""
-        self._last_joints = joints
-        mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[:] = joints
-        self.data.mocap_pos[self._bodies, :2] = start.objects
-        mujoco.mj_forward(self.model, self.data)
-
-    def _observation(self) -> Observation:
-        mujoco.mj_jacSite(self.model, self.data, self._jacobian, None, self._hand_site)
-        start = self._situation
-        return {
-            "hand": self._hand.copy(),
-            "hand_velocity": self._planar_jacobian.dot(self._qvel),
-            "joints": self._qpos.copy(),
-            "joint_velocities": self._qvel.copy(),
-            "objects": start.objects.copy(),
-            "signs": start.signs.copy(),
-        }
 
     def _info(self, residual: float, error: str) -> dict[str, Any]:
         return {
-            "request": self._situation.request,
+            "request": self._request,
             "is_success": self._judge.done,
             "performance": self._judge.performance,
             "ik_residual": residual,
             "physics_error": error,
         }
-
-
-def _observation_space(objects: int) -> gym.spaces.Dict:
-    """Bounds that nothing exceeds: the arm is 1.35 m long and starts 0.72 m from the table's centre."""
-
-    def box(limit: float | NDArray[np.float64], *shape: int) -> gym.spaces.Box:
-        bound = np.broadcast_to(np.asarray(limit, dtype=np.float64), shape)
-        return gym.spaces.Box(-bound, bound, shape, np.float64)
-
-    return gym.spaces.Dict(
-        {
-            "hand": box(2.1, 2),
-            "hand_velocity": box(20.0, 2),
-            "joints": box(np.pi, 3),
-            "joint_velocities": box(2 * MAX_JOINT_SPEED, 3),
-            "objects": box(TABLE + 1e-9, objects, 2),
-            "signs": box(1.0, WORDS, SAMPLES, 2),
-        }
-    )

@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from signimit_envs.hand_control import JointCommand
-from signimit_envs.scene import CONTROL_RATE
 from signimit_envs.tabletop import TabletopEnv
 
 
 class TabletopHandEnv(TabletopEnv):
-    """Obey two signs with hand velocities; everything but the action is as in `TabletopEnv`.
+    """Obey two signs with hand velocities: `TabletopEnv` with ``control="hand"`` unless something else is asked for.
 
     Action space:
         ``Box(-1, 1, (2,), float32)``: velocity of the hand along x and y, in units of `max_hand_speed`, for 1/50 s.
@@ -21,14 +16,12 @@ class TabletopHandEnv(TabletopEnv):
         Beyond its reach the hand goes as far as it can, and ``info["ik_residual"]`` says how much of the displacement
         is missing, m.
 
+    Everything else is as in `TabletopEnv`.
+
     Version history:
         v0: first version.
     """
 
-    _action_size: ClassVar[int] = 2
-    max_hand_speed: ClassVar[float] = 1.2
-    """Speed in m/s along each axis that an action of 1 stands for."""
-
-    def _command(self, action: NDArray[np.float64]) -> JointCommand:
-        dt = 1.0 / CONTROL_RATE
-        return self.controller.solve(self.data.qpos, action * (self.max_hand_speed * dt), dt)
+    def __init__(self, *arguments: Any, control: str = "hand", **named: Any) -> None:
+        """Build the scene; see `TabletopEnv` for the arguments."""
+        super().__init__(*arguments, control=control, **named)

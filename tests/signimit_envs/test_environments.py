@@ -197,7 +197,7 @@ def test_the_page_about_the_environment_tells_of_its_observations() -> None:
     """The table in the docstring has the keys and shapes of the space, in order."""
     rows = re.findall(r"^ +``(\w+)`` +\((\w+),([\d, ]*)\)", TabletopEnv.__doc__ or "", flags=re.MULTILINE)
     told = {
-        name: tuple(int(size) for size in (first.replace("O", "3"), *rest.split(",")) if size.strip())
+        name: tuple(int(size) for size in (first.replace("O", "3").replace("W", "2"), *rest.split(",")) if size.strip())
         for name, first, rest in rows
         if name in OBSERVED
     }

@@ -9,10 +9,11 @@ import pytest
 
 import signimit
 from signimit.signs import normalised_sign
-from signimit_envs.people import MOVEMENTS, People
+from signimit_envs.lexicons import MOVEMENTS, digit_language
+from signimit_envs.people import People
 from signimit_envs.situations import draw_situation
 
-PEOPLE = People.sample(3, MOVEMENTS, np.random.default_rng(0))
+PEOPLE = People.sample(digit_language(3, MOVEMENTS), np.random.default_rng(0))
 WAVE = np.column_stack([np.linspace(0, 1, 30), np.sin(np.linspace(0, 6, 30))])
 
 
