@@ -110,7 +110,7 @@ def test_recorded_arrays_cannot_be_written_to_and_must_fit(recording: Recording)
     wider = {**arrays, "controls": np.zeros((40, 5))}
     with pytest.raises(
         si.InvalidInputError,
-        match=r"controls: expected rows of float64 of shape \(3,\) as in episode 0, found .*\(5,\)",
+        match=r"controls: expected rows of float64 of shape \(3,\) as in episode 0",
     ):
         Recording(recording.origin, [recording[0], episode_from_arrays(wider, None)])
 
