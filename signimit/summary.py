@@ -6,7 +6,7 @@ import numpy as np
 
 from signimit.understanding import Understanding
 
-OBJECT_NAMES = ("red", "green", "blue", "yellow", "purple", "orange")
+OBJECT_NAMES = ("red", "green", "blue", "violet", "orange", "teal")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
 
 

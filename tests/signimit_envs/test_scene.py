@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import signimit
+from signimit.summary import object_name
 from signimit_envs.hand_control import HandController
 from signimit_envs.scene import OBJECT_COUNTS, OBJECT_NAMES, WORKSPACE, compile_scene, object_bodies
 
@@ -80,3 +81,7 @@ def test_everywhere_in_the_workspace_the_drives_are_fast_enough_for_the_hand() -
             mujoco.mj_comPos(model, data)
             mujoco.mj_jacSite(model, data, jacobian, None, model.site("hand").id)
             assert np.abs(1.2 * directions @ np.linalg.pinv(jacobian[:2]).T).max() < model.actuator_ctrlrange[0, 1]
+
+
+def test_objects_are_called_what_they_look_like() -> None:
+    assert [object_name(number) for number in range(len(OBJECT_NAMES))] == list(OBJECT_NAMES)

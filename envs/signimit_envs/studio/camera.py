@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.scene import compile_scene
+from signimit_envs.scene import OBJECT_COUNTS, compile_scene
 from signimit_envs.stage import Stage
 from signimit_envs.storyboard import PARKED, Shot
-from signimit_envs.studio.live_arm import LiveState, is_alike
+from signimit_envs.studio.live_state import LiveState, is_alike
 
 WIDTH, HEIGHT = 640, 480
 FRAME_RATE = 30.0  # 1/s, while something moves
@@ -40,6 +40,17 @@ def picture_mapping() -> dict[str, Any]:
     per_metre = 2 * np.tan(np.radians(model.cam_fovy[number]) / 2) / HEIGHT
     scales = {"table": float(height * per_metre), "hand": float((height - HAND_HEIGHT) * per_metre)}
     return {"width": WIDTH, "height": HEIGHT, "centre": [float(x), float(y)], "metres_per_pixel": scales}
+
+
+def object_colours() -> list[str]:
+    """Return the colours of the objects as a page writes them, in order."""
+    model, colours = compile_scene(OBJECT_COUNTS[-1]), []
+    for number in range(OBJECT_COUNTS[-1]):
+        geom = model.body_geomadr[model.body(f"object_{number}").id]
+        material = model.geom_matid[geom]
+        rgba = model.geom_rgba[geom] if material < 0 else model.mat_rgba[material]
+        colours.append("#" + "".join(f"{round(255 * float(part)):02x}" for part in rgba[:3]))
+    return colours
 
 
 class Camera:
@@ -116,11 +127,13 @@ class Camera:
                 future.set_exception(error)
 
     def _frame(self, state: LiveState) -> bytes:
-        try:
-            picture = b"" if self._blind else self._jpeg(state.objects, state.joints)
-        except RenderingError:
-            _log.exception("a frame could not be drawn")
-            picture = b""
+        picture = b""
+        if not self._blind:
+            try:
+                picture = self._jpeg(state.objects, state.joints)
+            except Exception as error:  # whatever OpenGL does, the page can draw the table itself
+                _log.exception("a frame could not be drawn; going on without pictures")
+                self._blind = f"OpenGL failed: {error}"
         header = json.dumps(frame_header(state), separators=(",", ":")).encode()
         return struct.pack(">I", len(header)) + header + picture
 

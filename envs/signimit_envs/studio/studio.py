@@ -23,7 +23,8 @@ from signimit_envs.studio.camera import Camera
 from signimit_envs.studio.events import Asked, Created, Signs
 from signimit_envs.studio.history import History
 from signimit_envs.studio.limits import LIMITS
-from signimit_envs.studio.live_arm import Errand, LiveArm, TrackPart
+from signimit_envs.studio.live_arm import LiveArm
+from signimit_envs.studio.live_state import Errand, TrackPart
 from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.shelf import Shelf
 from signimit_envs.studio.viewers import Viewers

@@ -11,7 +11,7 @@ from signimit.summary import object_name
 from signimit_envs.studio.belief import sign_json, understood_text
 from signimit_envs.studio.events import Shown, stroke_to_json
 from signimit_envs.studio.history import Given
-from signimit_envs.studio.live_arm import LiveState
+from signimit_envs.studio.live_state import LiveState
 from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.prompts import get_language, next_request, prompt_text, sign_labels
 from signimit_envs.studio.stand_ins import examples

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
 import logging
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import asynccontextmanager
@@ -25,7 +26,7 @@ except ImportError:
 
 from signimit_envs.scene import OBJECT_NAMES, TABLE, WORKSPACE
 from signimit_envs.studio import ask_routes, keep_routes, look_routes, teach_routes
-from signimit_envs.studio.camera import picture_mapping
+from signimit_envs.studio.camera import object_colours, picture_mapping
 from signimit_envs.studio.exchange import FORMATS
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.messages import complaint
@@ -95,6 +96,7 @@ async def _played(play: Play, studio: Studio) -> None:
         _log.exception("the session that plays itself ended")
 
 
+@functools.cache
 def _facts() -> dict[str, Any]:
     return {
         "version": __version__,
@@ -102,14 +104,11 @@ def _facts() -> dict[str, Any]:
         "table": TABLE.tolist(),
         "workspace": WORKSPACE.tolist(),
         "objects": list(OBJECT_NAMES),
-        "colours": list(OBJECT_COLOURS),
+        "colours": object_colours(),
         "languages": [*LANGUAGES, FREE],
         "limits": {name: getattr(LIMITS, name) for name in LIMITS.__dataclass_fields__},
         "exports": list(FORMATS),
     }
-
-
-OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
 
 
 def _serve_page(app: FastAPI) -> None:
@@ -134,7 +133,7 @@ def _tell_errors(app: FastAPI) -> None:
     """Answer every kind of error with its code and one sentence."""
 
     def refused(status: int, sentence: str, **more: Any) -> JSONResponse:
-        _log.info("refused with %d: %s", status, sentence)
+        _log.warning("refused with %d: %s", status, sentence)
         return JSONResponse({"error": sentence, **more}, status)
 
     @app.exception_handler(SignimitError)

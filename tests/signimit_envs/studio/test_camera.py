@@ -18,7 +18,7 @@ from signimit_envs.exceptions import RenderingError
 from signimit_envs.rendering import choose_backend
 from signimit_envs.storyboard import PARKED
 from signimit_envs.studio.camera import HAND_HEIGHT, Camera, picture_mapping
-from signimit_envs.studio.live_arm import LiveState
+from signimit_envs.studio.live_state import LiveState
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 OBJECT_HEIGHT, CAP_HEIGHT = 0.044, 0.13  # m, of what the camera sees of objects and of the hand

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 import signimit as si
 from signimit.people import Person
 from signimit.scenes import drawn_path, sample_times
-from signimit_envs.studio.live_arm import Errand, LiveArm, TrackPart, is_alike
+from signimit_envs.studio.live_arm import LiveArm
+from signimit_envs.studio.live_state import Errand, TrackPart, is_alike
 
 OBJECTS = np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]])
 ORIGIN = np.zeros(2)

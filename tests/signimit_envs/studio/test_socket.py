@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signimit import InvalidInputError
-from signimit_envs.studio.live_arm import LiveState
+from signimit_envs.studio.live_state import LiveState
 from signimit_envs.studio.messages import Drag, Shove, Watch, read_socket_message
 from signimit_envs.studio.viewers import Viewer, Viewers
 

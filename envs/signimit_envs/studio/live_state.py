@@ -1,0 +1,86 @@
+"""What the live arm does, where everything is, and what is kept of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.policies import Policy
+
+Array = NDArray[np.float64]
+
+
+class Errand(NamedTuple):
+    """What the arm is to do.
+
+    Attributes:
+        session: Name of the session that asks.
+        answer: Number of the answer in it.
+        policy: Policy of the movement, in the object's frame.
+        focus: Number of the object.
+        text: What was understood, in words.
+    """
+
+    session: str
+    answer: int
+    policy: Policy
+    focus: int
+    text: str
+
+
+class TrackPart(NamedTuple):
+    """A second of an answer, or the rest of it.
+
+    Attributes:
+        errand: What the arm was doing.
+        first: Number of the control step that the part begins with.
+        path: Where the hand was, shape (T, 2), m.
+        joints: The joint angles, shape (T, 3), rad.
+        objects: Where the objects were, shape (T, O, 2), m.
+    """
+
+    errand: Errand
+    first: int
+    path: Array
+    joints: Array
+    objects: Array
+
+
+@dataclass(frozen=True, eq=False)
+class LiveState:
+    """The arm and its table after a control step; nobody writes to the arrays.
+
+    Attributes:
+        session: Name of the session whose table it is.
+        errand: What the arm does; none while it rests.
+        time: Simulated time since the arm came alive, s.
+        joints: Joint angles, shape (3,), rad.
+        hand: Position of the hand, shape (2,), m.
+        objects: Object positions, shape (O, 2), m.
+        trail: Where the hand was, the latest last.
+        shoved: Whether somebody is pushing it.
+        lost: By how much simulated time is behind the clock since the arm came alive, s.
+    """
+
+    session: str | None
+    errand: Errand | None
+    time: float
+    joints: Array
+    hand: Array
+    objects: Array
+    trail: tuple[tuple[float, float], ...]
+    shoved: bool
+    lost: float
+
+
+def is_alike(one: LiveState, other: LiveState) -> bool:
+    """Tell whether two states look the same."""
+    return (
+        one.errand is other.errand
+        and one.session == other.session
+        and np.array_equal(one.objects, other.objects)
+        and float(np.abs(one.joints - other.joints).max()) < 1e-5
+    )
