@@ -19,10 +19,6 @@ from signimit.benchmark.running import Task, run_task
 from signimit.exceptions import InvalidInputError
 
 distributed: Any = importlib.import_module("distributed")
-pytestmark = [
-    pytest.mark.filterwarnings("ignore::DeprecationWarning"),
-    pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning"),
-]
 
 
 @pytest.fixture(scope="module")

@@ -35,7 +35,7 @@ def _by_definition(session: BenchmarkSession, command: Any) -> NDArray[np.float6
 
 
 def test_pairs_that_were_shown_are_obeyed_more_often_than_by_chance_and_no_other() -> None:
-    records = [run_task(Task(refer_to("clone-knn"), "paper", seed)) for seed in range(4)]
-    unseen = [run_task(Task(refer_to("clone-knn"), "unseen-pair", seed)) for seed in range(2)]
-    assert sum(sum(r["obeyed"]) for r in records) > 36 / 9  # chance asks one of nine
+    records = [run_task(Task(refer_to("clone-knn"), "paper", seed)) for seed in range(3)]
+    unseen = [run_task(Task(refer_to("clone-knn"), "unseen-pair", 0))]
+    assert sum(sum(r["obeyed"]) for r in records) > 27 / 9  # chance asks one of nine
     assert sum(sum(r["obeyed"]) for r in unseen) == 0

@@ -17,7 +17,7 @@ from signimit.exceptions import MissingDependencyError
 @pytest.fixture
 def short_training(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("sklearn", reason="scikit-learn is not installed")
-    monkeypatch.setattr("signimit.benchmark.entries.mlp_cloning.EPOCHS", 4)
+    monkeypatch.setattr("signimit.benchmark.entries.mlp_cloning.EPOCHS", 3)
 
 
 @pytest.mark.usefixtures("short_training")
