@@ -17,10 +17,12 @@ from signimit.demonstrations import DemonstrationSet
 from signimit.languages import PAPER_LANGUAGE, Language
 from signimit.learning import learn
 from signimit.people import synthetic_library
+from signimit.signs import resampled_path
 from signimit.similarity import policy_distances
 from signimit.traces import make_trace, trace_distances
 
 SAMPLES = 40
+POINTS = 100  # of a path whose policy is compared
 STEPS = ("distances of drawings", "distances of policies", "learning")
 CODES = ("numba", "numpy")  # with the extra ``fast``, and without
 
@@ -50,17 +52,20 @@ def measure_growth(counts: Sequence[int], seconds: float, seed: int = 0) -> Iter
 
     Args:
         counts: Numbers of demonstrations, ascending.
-        seconds: A step that took longer than this (of all processors together) is not tried at larger sizes.
+        seconds: A step is not tried at larger sizes once its next, as time grows with the square of the size, would take
+            longer than this (of all processors together).
         seed: Of the session.
     """
     context = multiprocessing.get_context("spawn")
     for step, code in itertools.product(STEPS, CODES):
-        for count in counts:
+        expected = 0.0
+        for count, larger in itertools.pairwise((*counts, counts[-1])):
+            if expected > seconds:
+                break
             with context.Pool(1) as pool:
                 measured = pool.apply(_measure, (count, step, code, seed))
             yield measured
-            if measured.processor_seconds > seconds:
-                break
+            expected = measured.processor_seconds * (larger / count) ** 2
 
 
 def compose_many(count: int, seed: int) -> DemonstrationSet:
@@ -81,7 +86,7 @@ def _measure(count: int, step: str, code: str, seed: int) -> Measurement:
     if step == "learning":
         learn(demonstrations, policy="knn")
     elif step == "distances of policies":
-        policy_distances(demonstrations.paths, demonstrations.objects)
+        policy_distances([resampled_path(path, POINTS) for path in demonstrations.paths], demonstrations.objects)
     else:
         trace_distances([make_trace(d.hand, d.times) for d in demonstrations], demonstrations.objects)
     seconds, worked = time.perf_counter() - start, time.process_time() - busy
