@@ -1,0 +1,179 @@
+/** Ask: two signs, and the arm answers on the physics, while it is watched, dragged about and shoved. */
+
+import * as api from "./api.js";
+import { AskTable } from "./asktable.js";
+import { attempt, button, byId, capital, make, percent } from "./dom.js";
+import { SignPad } from "./pad.js";
+import { accept, objectName, path, people, refresh, store, subscribe } from "./store.js";
+
+const INVITATION = "Draw two signs; the arm answers as the second one is done.";
+const UNTAUGHT = "The robot has not been taught anything yet. Demonstrate something first, in Teach.";
+
+export class Ask {
+  /** @param {LiveTable} live @param {function} replay called with the number of an answer */
+  constructor(live, replay) {
+    this.replay = replay;
+    this.request = null;
+    this.asked = null;
+    this.table = new AskTable(byId("ask-stage"), live, (header) => this.framed(header));
+    this.pads = [1, 2].map((number) => new SignPad(number, (byHand) => this.signed(number, byHand), () => this.started(number)));
+    byId("ask-pads").append(...this.pads.map((pad) => pad.element));
+    byId("ask-actions").append(
+      button("New scene", () => this.newScene(), { id: "new-scene" }),
+      button("Shove the hand", () => this.table.shoveAnywhere(), { id: "shove" }),
+      button("Stop", () => attempt(() => api.post(path("stop"))), { id: "stop" }),
+    );
+    subscribe((session, before) => this.changed(session, before));
+  }
+
+  changed(session, before) {
+    if (before?.id !== session.id) {
+      this.asked = null;
+      this.pads.forEach((pad) => pad.clear(false));
+      if (before && store.view === "ask") attempt(() => this.takeTable());
+    }
+    this.tell();
+    this.showPeople(before);
+    this.showAnswers();
+  }
+
+  /** The view is opened: the live table becomes this session's, unless it is already. */
+  async enter() {
+    this.table.watch(true);
+    await attempt(async () => {
+      const header = await this.table.seen();
+      if (header.session !== store.session.id) await this.takeTable();
+    });
+  }
+
+  leave() {
+    this.table.watch(false);
+  }
+
+  takeTable() {
+    return api.post(path("table"));
+  }
+
+  newScene() {
+    this.asked = null;
+    return attempt(async () => {
+      await this.takeTable();
+      this.tell();
+    });
+  }
+
+  /** A person puts the pen down: a first sign after an answer begins another utterance. */
+  started(number) {
+    this.request = null;
+    if (number === 1 && this.pads[1].stroke) this.pads[1].clear(false);
+  }
+
+  signed(number, byHand) {
+    if (!byHand || number !== 2 || !this.pads.every((pad) => pad.stroke)) return;
+    this.ask();
+  }
+
+  ask() {
+    return attempt(async () => {
+      const signs = this.pads.map((pad) => pad.stroke);
+      if (this.table.header && this.table.header.session !== store.session.id) await this.takeTable();
+      const body = this.request ? { signs, request: this.request } : { signs };
+      this.asked = await api.post(path("ask"), body);
+      this.tell();
+      await refresh();
+    });
+  }
+
+  /** Let the built-in interactant ask for something. */
+  askFor(request) {
+    return attempt(async () => {
+      const { signs } = await people("signs", request);
+      for (const [i, pad] of this.pads.entries()) if (!(await pad.play(signs[i]))) return;
+      this.request = request;
+      await this.ask();
+    });
+  }
+
+  framed(header) {
+    const strange = header.session !== null && header.session !== store.session?.id;
+    byId("ask-hint").textContent = strange
+      ? "Another session has the table; it comes here when you ask, or with New scene."
+      : "Drag the objects; flick the hand to shove it.";
+    if (!strange && header.text && header.answer !== this.asked?.number) {
+      this.asked = store.session.answers[header.answer] ?? this.asked;
+      this.tell();
+    }
+  }
+
+  tell() {
+    const taught = store.session.demonstrations.length > 0;
+    const answer = this.asked && (store.session.answers[this.asked.number] ?? this.asked);
+    const sentence = answer ? `${capital(answer.text)}` : taught ? INVITATION : UNTAUGHT;
+    const host = byId("ask-sentence");
+    if (host.textContent !== sentence) host.textContent = sentence;
+    byId("ask-verdict").replaceChildren(...(answer ? this.thumbs(answer) : []));
+  }
+
+  thumbs(answer) {
+    const judge = (good) =>
+      attempt(async () => accept(await api.post(path(`answers/${answer.number}/verdict`), { good: answer.verdict === good ? null : good })));
+    const thumb = (good, sign, words) =>
+      button(sign, () => judge(good), {
+        className: "thumb-verdict",
+        "aria-pressed": String(answer.verdict === good),
+        "aria-label": `${words}: answer ${answer.number}`,
+        title: words,
+      });
+    return [thumb(true, "👍 Right", "That is what I asked for"), thumb(false, "👎 Wrong", "That is not what I asked for")];
+  }
+
+  showPeople(before) {
+    const { language } = store.session;
+    if (before?.id === store.session.id) return;
+    const host = byId("ask-people");
+    const title = make("h3", { textContent: "Let a built-in person ask" });
+    if (!language) {
+      host.replaceChildren(title, make("p", { className: "quiet", textContent: "Built-in people do not know signs that you made up." }));
+      return;
+    }
+    const held = new Set(language.unseen.map(({ movement, focus }) => `${movement} ${focus}`));
+    const select = make("select", { id: "ask-request" });
+    language.movements.forEach((name, movement) =>
+      language.objects.forEach((object, focus) => {
+        const never = held.has(`${movement} ${focus}`) ? " (never prompted for)" : "";
+        select.append(make("option", { value: `${movement} ${focus}`, textContent: `${name} about ${object}${never}` }));
+      }),
+    );
+    select.value = [...held][0] ?? select.value;
+    const go = () => {
+      const [movement, focus] = select.value.split(" ").map(Number);
+      return this.askFor({ movement, focus });
+    };
+    host.replaceChildren(title, make("label", { className: "field" }, "Request", select), button("Ask for it", go, { id: "ask-for-it" }));
+  }
+
+  showAnswers() {
+    const { answers, language } = store.session;
+    const rows = [...answers].reverse().slice(0, 50).map((answer) => {
+      const wanted = answer.request && language
+        ? `asked for: ${language.movements[answer.request.movement]} about ${objectName(answer.request.focus)}`
+        : "";
+      const verdict = { true: "👍", false: "👎", null: "" }[String(answer.verdict)];
+      return make(
+        "li",
+        {},
+        make("span", {}, `${answer.number}. ${capital(answer.text)} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
+        button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number}` }),
+      );
+    });
+    const judged = answers.filter(({ verdict }) => verdict !== null);
+    const good = judged.filter(({ verdict }) => verdict).length;
+    const score = judged.length ? `${good} of ${judged.length} judged right (${percent(good / judged.length)})` : "";
+    byId("ask-answers").replaceChildren(
+      make("h3", { textContent: "Answers" }),
+      make("p", { className: "quiet", textContent: answers.length ? score : "None yet." }),
+      make("ul", { className: "answers plain-list" }, ...rows),
+    );
+  }
+}
+

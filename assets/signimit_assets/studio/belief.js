@@ -1,0 +1,198 @@
+/** What the robot believes: each demonstration, the movements, the words, their order, its doubts and its wish. */
+
+import { attempt, button, byId, capital, make, percent } from "./dom.js";
+import { beliefSentence, movementPicture, objectPatch, scenePicture, signPicture } from "./pictures.js";
+import { demonstration, objectName, store, subscribe } from "./store.js";
+
+const ORDINALS = ["first", "second"];
+let selected = null;
+let hooks = {};
+
+/** @param {{replay, redraw, remove, wish}} listeners called with the number of a demonstration; `wish` with the wish */
+export function startBelief(listeners) {
+  hooks = listeners;
+  subscribe((session, before) => {
+    const count = session.demonstrations.length;
+    const grown = before?.id !== session.id || before.demonstrations.length !== count;
+    if (grown || selected === null || selected >= count) selected = count ? count - 1 : null;
+    show();
+  });
+}
+
+/** Bring a demonstration to the fore. */
+export function select(number) {
+  selected = number;
+  show();
+}
+
+function show() {
+  const { belief, demonstrations } = store.session;
+  const host = byId("belief");
+  const parts = [make("h2", { textContent: "What the robot believes" })];
+  if (!demonstrations.length) parts.push(make("p", { className: "quiet", textContent: NOTHING }));
+  else if (!belief || belief.failed) parts.push(make("p", { className: "lead", textContent: belief?.failed ?? "…" }));
+  else parts.push(orderCard(belief), demonstrationCard(belief), movementCard(belief), objectCard(belief), wishCard(belief));
+  if (demonstrations.length && belief?.failed) parts.push(demonstrationCard(null));
+  host.replaceChildren(...parts);
+}
+
+const NOTHING =
+  "Nothing yet. It is told neither what a sign means, nor which object you have in mind, nor how many movements there are.";
+
+function card(title, ...children) {
+  return make("section", { className: "card" }, make("h3", { textContent: title }), ...children);
+}
+
+function orderCard(belief) {
+  const orders = belief.word_orders;
+  const shares = orders.map(({ loss }) => Math.exp(-loss));
+  const all = shares.reduce((sum, share) => sum + share, 0);
+  const rows = orders.map(({ focus, movement, loss }, i) =>
+    make(
+      "li",
+      { className: "measure" },
+      make("span", { textContent: `${capital(ORDINALS[focus])} sign: object, ${ORDINALS[movement]}: movement` }),
+      bar(shares[i] / all),
+      make("span", { className: "number", textContent: i ? `${loss.toFixed(1)} nats less` : percent(shares[i] / all) }),
+    ),
+  );
+  const sentence = make("p", { className: "lead", id: "word-order", textContent: belief.word_order.text });
+  return card("Word order", sentence, make("ul", { className: "plain-list" }, ...rows));
+}
+
+function bar(share) {
+  const filled = make("span", { className: "filled" });
+  filled.style.width = `${100 * share}%`;
+  return make("span", { className: "bar", "aria-hidden": "true" }, filled);
+}
+
+function demonstrationCard(belief) {
+  const count = store.session.demonstrations.length;
+  const sentence = belief ? beliefSentence(belief, selected) : "";
+  const body = make("div", { className: "chosen" });
+  const strip = make("div", { className: "strip", role: "group", "aria-label": "All demonstrations" });
+  for (let number = 0; number < count; number += 1) strip.append(thumb(belief, number));
+  fill(body, belief, selected, `Demonstration ${selected}`);
+  const actions = make(
+    "div",
+    { className: "row" },
+    button("Replay", () => hooks.replay(selected), { "aria-label": `Replay demonstration ${selected}` }),
+    button("Redraw", () => hooks.redraw(selected), { "aria-label": `Redraw demonstration ${selected}` }),
+    button("Delete", () => hooks.remove(selected), { "aria-label": `Delete demonstration ${selected}` }),
+  );
+  return card(
+    `Demonstration ${selected}`,
+    body,
+    make("p", { className: "lead", id: "chosen-belief", textContent: sentence }),
+    actions,
+    strip,
+  );
+}
+
+function thumb(belief, number) {
+  const { sure } = store.session.demonstrations[number];
+  const about = belief ? beliefSentence(belief, number) : "";
+  const made = make("button", {
+    type: "button",
+    className: "thumb",
+    title: about,
+    "aria-pressed": String(number === selected),
+    "aria-label": `Demonstration ${number}. ${about}${sure ? "" : ". Unsure"}`,
+    onclick: () => {
+      select(number);
+      document.querySelector(`.thumb:nth-child(${number + 1})`)?.focus({ preventScroll: true });
+    },
+  });
+  const picture = make("span", { className: "picture-box" });
+  made.append(picture, make("span", { className: "number", textContent: sure ? String(number) : `${number} ?` }));
+  whenSeen(made, () => fill(picture, belief, number, ""));
+  return made;
+}
+
+/** Draw a demonstration into a box, once its strokes are here. */
+function fill(box, belief, number, label) {
+  attempt(async () => {
+    const shown = await demonstration(number);
+    box.replaceChildren(scenePicture(shown, belief?.focus_probability[number], label));
+  });
+}
+
+const observer = new IntersectionObserver((entries) => {
+  for (const { isIntersecting, target } of entries) {
+    if (!isIntersecting) continue;
+    observer.unobserve(target);
+    target.whenSeen();
+  }
+});
+
+function whenSeen(element, work) {
+  element.whenSeen = work;
+  observer.observe(element);
+}
+
+function movementCard(belief) {
+  const count = belief.movements.length;
+  const rows = belief.movements.map(({ number, members }) => {
+    const word = belief.lexicon.movements.find(({ movement }) => movement === number);
+    return make(
+      "li",
+      { className: "meaning" },
+      movementPicture(word.drawings, `Movement ${number}, as it was drawn about the object`),
+      make("div", {}, make("b", { textContent: `Movement ${number}` }), chips(belief, members)),
+      signs(word.strokes, `means movement ${number}`),
+    );
+  });
+  return card(`${count} movement${count === 1 ? "" : "s"}, and the signs for them`, make("ul", { className: "plain-list" }, ...rows));
+}
+
+function objectCard(belief) {
+  const rows = belief.lexicon.objects.map(({ object, strokes }) =>
+    make(
+      "li",
+      { className: "meaning" },
+      objectPatch(object),
+      make("b", { textContent: capital(objectName(object)) }),
+      strokes.length ? signs(strokes, `means ${objectName(object)}`) : make("span", { className: "quiet", textContent: "no sign seen" }),
+    ),
+  );
+  return card("Signs for the objects", make("ul", { className: "plain-list" }, ...rows));
+}
+
+function signs(strokes, meaning) {
+  return make("div", { className: "signs" }, ...strokes.slice(-4).map((points) => signPicture(points, `A sign that ${meaning}`)));
+}
+
+function chips(belief, members) {
+  const made = members.map((number) => {
+    const focus = belief.focus[number];
+    const unsure = !store.session.demonstrations[number].sure;
+    const label = `Demonstration ${number}, about ${objectName(focus)}${unsure ? ", unsure" : ""}`;
+    return make(
+      "button",
+      { type: "button", className: "chip", "aria-label": label, title: label, onclick: () => select(number) },
+      objectPatch(focus),
+      `${number}${unsure ? " ?" : ""}`,
+    );
+  });
+  return make("div", { className: "chips" }, ...made);
+}
+
+function wishCard(belief) {
+  const doubts = belief.doubtful.length
+    ? make("ul", {}, ...belief.doubtful.map(({ text }) => make("li", { textContent: text })))
+    : make("p", { textContent: "It doubts none of the demonstrations." });
+  const { wish } = belief;
+  const wished = wish?.text
+    ? [
+        make("h3", { textContent: "Would like to see next" }),
+        make("p", { textContent: wish.text }),
+        make(
+          "div",
+          { className: "row" },
+          ...(wish.signs ?? []).map((points, i) => signPicture(points, `The ${ORDINALS[i]} sign it wishes for`)),
+          button("Show it that", () => hooks.wish(wish)),
+        ),
+      ]
+    : [];
+  return card("Doubts", doubts, ...wished);
+}

@@ -1,0 +1,71 @@
+/** Look: replay, similarities, and the paper's figures of this session. */
+
+import { blob } from "./api.js";
+import { byId, make } from "./dom.js";
+import { Matrix } from "./matrix.js";
+import { Replay } from "./replay.js";
+import { path, store, subscribe } from "./store.js";
+
+const FIGURES = {
+  4: "The demonstrations, seen from each object",
+  5: "Similarities in every pair of frames",
+  6: "Best similarities",
+  7: "What the arm drew",
+};
+
+export class Look {
+  constructor() {
+    this.replay = new Replay();
+    this.matrix = new Matrix();
+    this.figures = new Map();
+    this.shown = "";
+    byId("look-figures").append(make("h3", { textContent: "Figures" }), ...Object.keys(FIGURES).map((n) => this.figure(n)));
+    subscribe(() => store.view === "look" && this.enter());
+  }
+
+  figure(number) {
+    const picture = make("img", { alt: `Figure ${number}: ${FIGURES[number]}`, hidden: true });
+    const note = make("p", { className: "quiet" });
+    const link = (suffix) => make("a", { textContent: suffix.toUpperCase(), download: `figure-${number}.${suffix}` });
+    const links = ["png", "svg"].map(link);
+    const row = make("p", { className: "links", hidden: true }, "Download ", ...links);
+    const box = make("details", { open: number === "4" }, make("summary", { textContent: `${number} · ${FIGURES[number]}` }), note, picture, row);
+    box.addEventListener("toggle", () => this.load(number));
+    this.figures.set(number, { box, picture, note, row, links, made: "" });
+    return box;
+  }
+
+  enter() {
+    const { id, revision } = store.session;
+    this.replay.enter();
+    if (this.shown === `${id} ${revision}`) return;
+    this.shown = `${id} ${revision}`;
+    this.matrix.load();
+    for (const number of this.figures.keys()) this.load(number);
+  }
+
+  /** Let a figure be drawn, if it is open and not of this revision. */
+  async load(number) {
+    const figure = this.figures.get(number);
+    if (!figure.box.open || figure.made === this.shown || !this.shown) return;
+    const wanted = (figure.made = this.shown);
+    figure.note.textContent = "The figure is being drawn…";
+    try {
+      const drawn = await blob(path(`figures/${number}.png`));
+      if (figure.made !== wanted) return;
+      URL.revokeObjectURL(figure.picture.src);
+      figure.picture.src = URL.createObjectURL(drawn);
+      figure.note.textContent = "";
+      figure.links.forEach((link, i) => (link.href = `api/${path(`figures/${number}.${["png", "svg"][i]}`)}`));
+      this.present(figure, true);
+    } catch (problem) {
+      if (figure.made !== wanted) return;
+      figure.note.textContent = problem.message;
+      this.present(figure, false);
+    }
+  }
+
+  present({ picture, row }, there) {
+    picture.hidden = row.hidden = !there;
+  }
+}

@@ -1,0 +1,83 @@
+/** Small pictures of strokes and scenes, as SVG. */
+
+import { capital, makeSvg, percent } from "./dom.js";
+import { colour, objectName } from "./store.js";
+
+const OUTSIDE = 1.25; // room about a sign in its box
+const line = (points) => points.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" ");
+
+/** Show a sign within -1..1, y up. */
+export function signPicture(points, label) {
+  return makeSvg(
+    "svg",
+    { viewBox: `${-OUTSIDE} ${-OUTSIDE} ${2 * OUTSIDE} ${2 * OUTSIDE}`, class: "sign", role: "img", "aria-label": label },
+    makeSvg("polyline", { points: line(points), class: "stroke" }),
+  );
+}
+
+/** Show drawings of a movement about an object, the middle of the picture; in metres, or -1..1. */
+export function movementPicture(drawings, label, half) {
+  const reach = half ?? 1.1 * Math.max(0.05, ...drawings.flat(2).map(Math.abs));
+  const cross = reach * 0.06;
+  return makeSvg(
+    "svg",
+    { viewBox: `${-reach} ${-reach} ${2 * reach} ${2 * reach}`, class: "movement", role: "img", "aria-label": label },
+    makeSvg("path", { d: `M${-cross} 0H${cross}M0 ${-cross}V${cross}`, class: "cross" }),
+    ...drawings.map((points) => makeSvg("polyline", { points: line(points), class: "stroke" })),
+  );
+}
+
+const SHAPES = [
+  (x, y, r) => makeSvg("circle", { cx: x, cy: y, r }),
+  (x, y, r) => makeSvg("rect", { x: x - 0.88 * r, y: y - 0.88 * r, width: 1.76 * r, height: 1.76 * r }),
+  (x, y, r) => makeSvg("path", { d: `M${x} ${y - 1.2 * r}l${1.1 * r} ${1.9 * r}h${-2.2 * r}z` }),
+];
+
+/** A patch of an object's colour and shape, with its letter. */
+export function objectPatch(index) {
+  const letter = makeSvg("text", { x: 0, y: 0.36, class: "letter" });
+  letter.textContent = objectName(index).charAt(0).toUpperCase();
+  return makeSvg("svg", { viewBox: "-1.3 -1.3 2.6 2.6", class: "patch", "aria-hidden": "true" }, shape(index, 0, 0, 1), letter);
+}
+
+function shape(index, x, y, r) {
+  const made = (SHAPES[index] ?? SHAPES[0])(x, y, r);
+  made.setAttribute("fill", colour(index));
+  return made;
+}
+
+/**
+ * Show a whole demonstration: objects, the hand's path, and a ring about each object that it may be about; the part
+ * of the ring that is drawn is the probability.
+ */
+export function scenePicture(shown, probability, label) {
+  const rings = (probability ?? []).map((share, i) => (share >= 0.02 ? ring(shown.objects[i], share) : ""));
+  return makeSvg(
+    "svg",
+    { viewBox: "-0.56 -0.5 1.12 1", class: "scene", role: "img", "aria-label": label },
+    makeSvg("rect", { x: -0.56, y: -0.5, width: 1.12, height: 1, class: "wood" }),
+    ...shown.objects.map(([x, y], i) => shape(i, x, -y, 0.045)),
+    makeSvg("polyline", { points: line(shown.hand.points), class: "halo" }),
+    makeSvg("polyline", { points: line(shown.hand.points), class: "path" }),
+    ...rings,
+    makeSvg("circle", { cx: shown.hand.points[0][0], cy: -shown.hand.points[0][1], r: 0.022, class: "hand" }),
+  );
+}
+
+function ring([x, y], share) {
+  const around = { cx: x, cy: -y, r: 0.095, pathLength: 100, transform: `rotate(-90 ${x} ${-y})` };
+  const dash = { "stroke-dasharray": `${(100 * share).toFixed(1)} 100` };
+  return makeSvg(
+    "g",
+    {},
+    makeSvg("circle", { ...around, ...dash, class: "ring-rim" }),
+    makeSvg("circle", { ...around, ...dash, class: "ring" }),
+  );
+}
+
+/** Say where the robot thinks a demonstration belongs, e.g. "Movement 2 about the red object, 97 %". */
+export function beliefSentence(belief, number) {
+  const focus = belief.focus[number];
+  const sure = percent(belief.focus_probability[number][focus]);
+  return capital(`movement ${belief.labels[number]} about the ${objectName(focus)} object, ${sure}`);
+}

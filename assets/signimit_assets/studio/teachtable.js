@@ -1,0 +1,117 @@
+/** The table of Teach: a movement is drawn on it, beginning at the hand. */
+
+import { blob } from "./api.js";
+import { byId, complain, make } from "./dom.js";
+import { playing } from "./pad.js";
+import { Recording, distance, followPointer } from "./pen.js";
+import { Stage, drawHand, drawLetters, drawObjects, drawPath } from "./stage.js";
+import { store } from "./store.js";
+
+const NEAR = 0.06; // m, from the hand's place; where a movement may begin
+const FINGER = 28; // CSS pixels, the same for fingers on small screens
+const LEAST = 0.02; // m; what reaches less far was a tap
+const HINT = "Begin at the hand, the yellow dot.";
+
+export class TeachTable {
+  /** @param {function} changed called when the movement is drawn or gone */
+  constructor(host, changed) {
+    this.changed = changed;
+    this.stage = new Stage(host, "The table with its objects; draw the movement here");
+    this.scene = null;
+    this.hand = null;
+    this.drawing = null;
+    this.played = false; // whether built-in people are drawing
+    this.turn = 0;
+    followPointer(this.stage.sheet, {
+      begin: (at) => this.begin(at),
+      move: (at) => this.move(at),
+      end: () => this.end(),
+      cancel: () => this.cancel(),
+    });
+  }
+
+  /** Show a scene, {objects, hand}, its picture, and the movement that is drawn already, or null. */
+  async open(scene, picture, hand) {
+    this.turn += 1;
+    this.drawing = null;
+    [this.scene, this.hand] = [scene, hand];
+    this.hint(HINT);
+    this.stage.draw((pen) => this.paint(pen));
+    if (this.picture === picture) return;
+    this.picture = picture;
+    this.stage.element.classList.add("waiting");
+    try {
+      const jpeg = store.studio.can_draw ? await blob(picture) : null;
+      if (this.picture === picture) await this.stage.show(jpeg);
+    } catch (problem) {
+      this.picture = null;
+      complain(problem);
+    }
+    this.stage.paint();
+  }
+
+  paint(pen) {
+    if (!this.scene) return;
+    if (!store.studio.can_draw) drawObjects(pen, this.scene.objects);
+    drawLetters(pen, this.scene.objects);
+    const made = this.drawing ?? this.hand;
+    if (made) drawPath(pen, made.points);
+    drawHand(pen, this.drawing || this.played ? made.points.at(-1) : this.scene.hand);
+  }
+
+  begin(at) {
+    if (!this.scene) return false;
+    const near = Math.max(NEAR, FINGER * this.stage.pixel);
+    if (distance(this.stage.metres(at), this.scene.hand) > near) {
+      this.hint(HINT, true);
+      return false;
+    }
+    this.turn += 1;
+    this.drawing = new Recording();
+    this.drawing.add(this.scene.hand, at.time - 0.01);
+    this.move(at);
+    return true;
+  }
+
+  move(at) {
+    this.drawing.add(this.stage.metres(at), at.time);
+    this.stage.paint();
+  }
+
+  end() {
+    const made = this.drawing;
+    this.drawing = null;
+    this.hand = made.reach >= LEAST ? made.stroke : null;
+    this.hint(this.hand ? "Draw it again from the yellow dot if you like." : HINT, !this.hand);
+    this.stage.paint();
+    this.changed();
+  }
+
+  cancel() {
+    this.drawing = null;
+    this.stage.paint();
+  }
+
+  /** Draw a movement as somebody else did, as time goes by; tells whether it came to its end. */
+  async play(stroke, speed) {
+    this.turn += 1;
+    const { turn } = this;
+    await playing(stroke.times, (count) => {
+      if (turn !== this.turn) return false;
+      this.played = count > 0;
+      this.hand = count ? { points: stroke.points.slice(0, count), times: stroke.times.slice(0, count) } : null;
+      this.stage.paint();
+      return true;
+    }, speed);
+    this.played = false;
+    if (turn !== this.turn) return false;
+    this.hand = stroke;
+    this.stage.paint();
+    this.changed();
+    return true;
+  }
+
+  hint(text, strong = false) {
+    byId("teach-hint").replaceChildren(make(strong ? "strong" : "span", { textContent: text }));
+  }
+}
