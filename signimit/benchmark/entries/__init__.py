@@ -12,6 +12,8 @@ from signimit.benchmark.entries.oracles import AllKnowing, oracle_focus, oracle_
 from signimit.benchmark.entries.replay import Replay, ReplayNearby
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle
 
+MANY = 1200  # demonstrations for those who learn slowly
+
 
 def _perceptron(kit: Kit) -> Entry:
     from signimit.benchmark.entries.mlp_cloning import PerceptronCloning
@@ -19,11 +21,39 @@ def _perceptron(kit: Kit) -> Entry:
     return PerceptronCloning(kit)
 
 
+def _deep(kit: Kit, attention: bool) -> Entry:
+    from signimit.benchmark.entries.deep_cloning import DeepCloning
+
+    return DeepCloning(kit, attention)
+
+
 _ALL: tuple[Entrant | Oracle, ...] = (
     learner_entrant("joint", "our default: everything inferred together, path-following", "joint"),
     learner_entrant("paper", "the paper: Algorithm 1 as it works, its k-NN policy", "paper", "knn"),
     learner_entrant("paper-path", "the paper's inference, path-following", "paper"),
     learner_entrant("paper-literal", "the paper with Algorithm 1 as printed", "paper-literal", "knn"),
+    Entrant(
+        name="deep-12",
+        title="a deep network with attention to one object, trained on what was shown",
+        make=lambda kit: _deep(kit, attention=True),
+    ),
+    Entrant(
+        name="deep-1200",
+        title="the same, trained on 1,200 demonstrations",
+        make=lambda kit: _deep(kit, attention=True),
+        demonstrations=MANY,
+    ),
+    Entrant(
+        name="deep-plain-12",
+        title="a deep network without attention, trained on what was shown",
+        make=lambda kit: _deep(kit, attention=False),
+    ),
+    Entrant(
+        name="deep-plain-1200",
+        title="the same without attention, trained on 1,200 demonstrations",
+        make=lambda kit: _deep(kit, attention=False),
+        demonstrations=MANY,
+    ),
     Entrant(
         name="clone-knn",
         title="behaviour cloning: the nearest moments, seen from all objects",

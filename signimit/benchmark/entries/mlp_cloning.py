@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from signimit.benchmark.entries.layers import rectified_output
 from signimit.benchmark.entries.samples import Samples, samples_of, utterance_features
 from signimit.benchmark.protocol import Kit, Observation
 from signimit.demonstrations import DemonstrationSet
@@ -77,14 +78,7 @@ class PerceptronCloning:
     def act(self, observation: Observation) -> ArrayLike:
         """Ask the network."""
         inputs = _inputs(self._code, observation.hand[None], self._objects)[0]
-        return SPEED * self._forward((inputs - self._mean) / self._scale)
-
-    def _forward(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Pass one input through the layers, ten times as fast as scikit-learn does for a single one."""
-        for weights, bias in self._layers[:-1]:
-            values = np.maximum(values @ weights + bias, 0.0)
-        weights, bias = self._layers[-1]
-        return np.asarray(values @ weights + bias)
+        return SPEED * rectified_output(self._layers, (inputs - self._mean) / self._scale)
 
 
 def _inputs(code: NDArray[np.float64], hand: NDArray[np.float64], objects: NDArray[np.float64]) -> NDArray[np.float64]:
