@@ -52,8 +52,8 @@ def measure_growth(counts: Sequence[int], seconds: float, seed: int = 0) -> Iter
 
     Args:
         counts: Numbers of demonstrations, ascending.
-        seconds: A step is not tried at larger sizes once its next, as time grows with the square of the size, would take
-            longer than this (of all processors together).
+        seconds: A step is not tried at larger sizes once its next, if time grows with the square of the size, would
+            take longer than this (of all processors together).
         seed: Of the session.
     """
     context = multiprocessing.get_context("spawn")

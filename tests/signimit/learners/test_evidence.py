@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.stats import norm
 
 from signimit.learners.evidence import DRAWINGS, SIGNS, DistanceModel
 
@@ -45,6 +46,21 @@ def test_the_ratio_of_two_normal_densities_is_that_of_the_hand() -> None:
     # -x²/2 + (x - 2)²/2 = 2 - 2x
     np.testing.assert_allclose(sure.log_ratios(np.exp([0.0, 0.5, 1.0, 2.0]), 0.0), [2, 1, 0, -2], atol=1e-6)
     np.testing.assert_allclose(sure.log_ratios(np.exp([-5.0, 9.0]), 0.0), [2, -2], atol=1e-6)
+
+
+@MODELS
+@settings(deadline=None, derandomize=True, max_examples=30)
+@given(mean=st.floats(-2.5, 0.5), seed=st.integers(0, 10_000))
+def test_ratios_are_those_of_the_densities(model: DistanceModel, mean: float, seed: int) -> None:
+    """Two mixtures of normal densities of the logarithm, which is held between the typical equal and other."""
+    distances = np.exp(np.random.default_rng(seed).normal(-0.5, 1.0, 50))
+    logs = np.clip(np.log(distances), mean, max(mean, model.other_mean))
+    equal = norm.pdf(logs, mean, model.equal_spread)
+    akin = norm.pdf(logs, model.akin_mean, model.akin_spread)
+    other = (1 - model.akin_share) * norm.pdf(logs, model.other_mean, model.other_spread) + model.akin_share * akin
+    odd, chance = model.odd_share, model.chance_share
+    expected = np.log((1 - odd) * equal + odd * other) - np.log((1 - chance) * other + chance * equal)
+    np.testing.assert_allclose(model.log_ratios(distances, mean), expected, atol=1e-5)
 
 
 def test_the_scale_of_a_session_lies_between_what_was_expected_and_what_was_seen() -> None:

@@ -130,6 +130,30 @@ def test_groups_merge_as_long_as_it_pays() -> None:
     np.testing.assert_array_equal(affinity[0, 1], -4.0)
 
 
+def slow_groups(affinity: NDArray[np.float64]) -> list[list[int]]:
+    """Merge the pair of groups whose pairs sum to most, the first of several, while that pays."""
+    groups = [[t] for t in range(len(affinity))]
+    while len(groups) > 1:
+        gains = {(a, b): affinity[np.ix_(groups[a], groups[b])].sum() for a in range(len(groups)) for b in range(a)}
+        a, b = min(gains, key=lambda pair: (-gains[pair], groups[pair[1]][0], groups[pair[0]][0]))
+        if gains[a, b] <= -MOVEMENT_PRICE:
+            break
+        groups[b] += groups.pop(a)
+    return groups
+
+
+@properties
+@given(st.integers(1, 12), st.sampled_from([0, 1, 9]), st.integers(0, 10_000))
+def test_remembered_partners_lead_to_the_groups_of_plain_loops(count: int, decimals: int, seed: int) -> None:
+    """Rounded to whole numbers many pairs tie, and the first is merged."""
+    affinity = np.random.default_rng(seed).normal(-1, 3, (count, count)).round(decimals)
+    affinity = affinity + affinity.T
+    labels = merge_groups(affinity)
+    assert [np.flatnonzero(labels == m).tolist() for m in range(labels.max() + 1)] == [
+        sorted(group) for group in slow_groups(affinity)
+    ]
+
+
 def test_merging_saves_the_price_of_a_movement_and_no_more() -> None:
     for evidence, together in ((-MOVEMENT_PRICE + 0.1, True), (-MOVEMENT_PRICE - 0.1, False)):
         labels = merge_groups(np.array([[0.0, evidence], [evidence, 0.0]]))
