@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -130,7 +131,7 @@ def _summarise_split(name: str, records: Sequence[Record]) -> dict[str, Any]:
         "demonstrations": sum(r["demonstrations"] for r in records),
         "commands": sum(len(r["obeyed"]) for r in records),
         "seconds": round(sum(sum(r["seconds"].values()) for r in records), 2),
-        "stages": {stage: estimate._asdict() for stage, estimate in stages.items() if estimate is not None},
+        "stages": {stage: asdict(estimate) for stage, estimate in stages.items() if estimate is not None},
     }
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from signimit.benchmark.obeying import SECONDS
 from signimit.benchmark.results import Summary
 from signimit.benchmark.splits import SPLITS
-from signimit.benchmark.statistics import STAGES, Estimate
+from signimit.benchmark.statistics import STAGES
 
 MANY = 10_000  # sessions whose cost is told
 
@@ -55,8 +55,7 @@ def split_table(summaries: Sequence[Summary], split: str) -> str:
 def _cell(estimate: dict[str, float] | None) -> str:
     if estimate is None:
         return "-"
-    mean, low, high, *_ = Estimate(**estimate)  # type: ignore[arg-type]
-    return f"{mean:.2f} [{low:.2f}, {high:.2f}]"
+    return "{mean:.2f} [{low:.2f}, {high:.2f}]".format(**estimate)
 
 
 def _entry(summary: Summary) -> str:

@@ -3,20 +3,24 @@
 import numpy as np
 import pytest
 
-from signimit.benchmark.statistics import STAGES, estimate_misfit, estimate_share, estimate_stage
+from signimit.benchmark.statistics import STAGES, Estimate, estimate_misfit, estimate_share, estimate_stage
 from signimit.intervals import wilson_interval
+
+
+def interval(found: Estimate) -> tuple[float, float, float]:
+    return found.mean, found.low, found.high
 
 
 def test_independent_commands_count_each() -> None:
     """Sessions that do equally well tell nothing of clusters."""
     found = estimate_share([8, 8, 8, 8, 8], [9] * 5)
-    assert found[:3] == pytest.approx((40 / 45, *wilson_interval(40, 45)))
-    assert found[3:] == (40, 45)
+    assert interval(found) == pytest.approx((40 / 45, *wilson_interval(40, 45)))
+    assert (found.total, found.count) == (40, 45)
 
 
 def test_sessions_that_fail_as_a_whole_count_as_one_each() -> None:
     found = estimate_share([9, 9, 0, 9, 0, 9, 9, 9, 9, 9], [9] * 10)
-    assert found[:3] == pytest.approx((0.8, *wilson_interval(8, 10)))
+    assert interval(found) == pytest.approx((0.8, *wilson_interval(8, 10)))
 
 
 def test_clusters_between_the_two_give_an_interval_between_them() -> None:
@@ -26,8 +30,8 @@ def test_clusters_between_the_two_give_an_interval_between_them() -> None:
 
 
 def test_nothing_wrong_and_nothing_right_have_wilsons_intervals() -> None:
-    assert estimate_share([9] * 20, [9] * 20)[1:3] == pytest.approx(wilson_interval(180, 180))
-    assert estimate_share([0] * 20, [9] * 20)[1:3] == pytest.approx(wilson_interval(0, 180))
+    assert interval(estimate_share([9] * 20, [9] * 20))[1:] == pytest.approx(wilson_interval(180, 180))
+    assert interval(estimate_share([0] * 20, [9] * 20))[1:] == pytest.approx(wilson_interval(0, 180))
 
 
 def test_a_rand_index_below_zero_lies_within_its_interval() -> None:
@@ -52,7 +56,7 @@ def test_the_misfits_interval_is_students_of_the_sessions() -> None:
     assert found.mean == pytest.approx(0.15)
     assert found.low == 0.0
     assert found.high == pytest.approx(0.15 + half, abs=1e-4)
-    assert estimate_misfit([0.9], [9])[1:3] == (0.0, 1.0)
+    assert interval(estimate_misfit([0.9], [9]))[1:] == (0.0, 1.0)
 
 
 RECORDS = [
