@@ -41,7 +41,7 @@ def main(
     plan = SessionPlan(seed=seed, attempts=attempts, seconds=seconds, method=method, policy=policy)
     session = compose_session(plan, cast_people(plan.language, np.random.default_rng([seed, 1])))
     model = learn(session.demonstrations, session.prototypes, method, policy, seed)
-    recording = record_reproductions(model, session.commands, seconds, plan.language.movements)
+    recording = record_reproductions(model, session.commands, seconds, plan.language)
     save_recording(out, recording)
     obeyed = sum(bool(episode.infos["is_success"][-1]) for episode in recording)
     print(f"{recording!r} is in {out}; {obeyed} of {len(recording)} requests were fulfilled.")

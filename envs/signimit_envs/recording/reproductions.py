@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from contextlib import closing
+from dataclasses import asdict
 from typing import Any
 
 import gymnasium as gym
 import numpy as np
 
 from signimit.exceptions import InvalidInputError
+from signimit.languages import PAPER_LANGUAGE, Language
 from signimit.learning import ImitationModel
-from signimit_envs.people import MOVEMENTS
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.recorder import EpisodeRecorder
 from signimit_envs.reproduction import hand_velocities
@@ -22,7 +23,7 @@ ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
 
 
 def record_reproductions(
-    model: ImitationModel, commands: Iterable[Command], seconds: float = 10.0, movements: Sequence[str] = MOVEMENTS
+    model: ImitationModel, commands: Iterable[Command], seconds: float = 10.0, language: Language = PAPER_LANGUAGE
 ) -> Recording:
     """Let a model obey commands with the simulated arm, one episode each.
 
@@ -30,7 +31,7 @@ def record_reproductions(
         model: Who obeys. It is given the signs and where the objects are.
         commands: What it is asked; each request is in ``infos``, judged by the environment's own drawings.
         seconds: How long each episode takes.
-        movements: Labels of the movements that requests count.
+        language: What the commands are said in.
 
     Raises:
         InvalidInputError: If there are no commands, or one cannot be made.
@@ -38,8 +39,7 @@ def record_reproductions(
     if not 0 < seconds <= 600.0:  # a comparison with NaN is false
         raise InvalidInputError("seconds", "above 0, at most 600", f"{seconds}")
     steps = max(1, round(seconds * CONTROL_RATE))
-    count = model.demonstrations.objects.shape[1]
-    env = gym.make(ENV_ID, max_episode_steps=steps, objects=count, movements=list(movements))
+    env = gym.make(ENV_ID, max_episode_steps=steps, language=asdict(language))
     with closing(EpisodeRecorder(env)) as recorder:
         for command in commands:
             _obey(model, command, recorder)

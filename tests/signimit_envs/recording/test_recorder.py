@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import closing
+from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
@@ -11,10 +13,20 @@ import numpy as np
 import pytest
 
 import signimit as si
-from signimit_envs import ENV_IDS, TabletopHandEnv, reproduce
-from signimit_envs.recording import STATE_SPEC, EpisodeRecorder, Recording, record_reproductions
+from signimit_envs import ENV_IDS, RenderingError, TabletopHandEnv, reproduce
+from signimit_envs.recording import (
+    STATE_SPEC,
+    EpisodeRecorder,
+    Recording,
+    find_divergence,
+    load_recording,
+    record_reproductions,
+    save_recording,
+)
 from signimit_envs.recording.episodes import episode_arrays, episode_from_arrays
 from signimit_envs.session import Command, Scene
+
+Same = Callable[[Recording, Recording], None]
 
 
 @pytest.mark.parametrize("env_id", ENV_IDS)
@@ -69,6 +81,31 @@ def test_an_observation_that_is_one_array_is_recorded_too() -> None:
         recorder.step(np.zeros(2, np.float32))
         (episode,) = recorder.recording
     np.testing.assert_array_equal(episode.observations["observation"][0], first)
+
+
+@pytest.mark.parametrize("control", ["hand", "joint"])
+@pytest.mark.parametrize("obs_type", ["state", "pixels", "state_pixels"])
+def test_whatever_is_observed_and_commanded_is_recorded_and_replays(
+    control: str, obs_type: str, tmp_path: Path, assert_same: Same
+) -> None:
+    options: dict[str, Any] = {"control": control, "obs_type": obs_type, "size": (32, 48), "objects": 2}
+    with closing(EpisodeRecorder(gym.make(ENV_IDS[0], **options))) as env:
+        try:
+            seen = [env.reset(seed=1)[0]]
+        except RenderingError as error:
+            pytest.skip(str(error))
+        for _ in range(3):
+            seen.append(env.step(0.3 * env.action_space.sample())[0])
+        recording = env.recording
+    assert find_divergence(recording.origin, recording[0]) is None
+    pictures = [o if obs_type == "pixels" else o.get("pixels") for o in seen]
+    if pictures[0] is not None:
+        name = "observation" if obs_type == "pixels" else "pixels"
+        np.testing.assert_array_equal(recording[0].observations[name], pictures)
+    save_recording(tmp_path / "r.npz", recording)
+    assert_same(load_recording(tmp_path / "r.npz"), recording)
+    with closing(gym.make(recording.origin.make_spec())) as again:
+        assert again.observation_space == env.observation_space
 
 
 def test_a_recording_knows_the_environment_with_its_arguments_and_wrappers(recording: Recording) -> None:
@@ -131,7 +168,7 @@ def test_a_reproduction_is_recorded_as_it_happens_without_a_recorder() -> None:
     ]
     model = si.learn(si.DemonstrationSet(demonstrations), rng=0)
     command = Command(si.languages.Request(0, 1), (strokes[1], strokes[2]), Scene(objects, np.array([0.1, -0.1])), True)
-    recording = record_reproductions(model, [command], seconds=2.0)
+    recording = record_reproductions(model, [command], 2.0, si.languages.Language(focus_signs=("1", "2")))
     (episode,) = recording
     assert len(episode) == 100
     assert episode.truncations[-1]

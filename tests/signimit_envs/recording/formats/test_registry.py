@@ -5,12 +5,15 @@ from __future__ import annotations
 import importlib
 import sys
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
+import gymnasium as gym
 import pytest
 
 import signimit as si
-from signimit_envs.recording import Recording
+from signimit_envs import RenderingError
+from signimit_envs.recording import EpisodeRecorder, Recording
 from signimit_envs.recording.formats import FORMATS, read_data, read_recording, write_data
 
 Same = Callable[[Recording, Recording], None]
@@ -48,6 +51,24 @@ def test_the_way_through_every_format_changes_nothing(
         assert_same(played, recording)
         for field, array in demonstrations.to_arrays().items():
             assert shown.to_arrays()[field].tobytes() == array.tobytes(), (name, field)
+
+
+@pytest.mark.parametrize("obs_type", ["pixels", "state_pixels"])
+@pytest.mark.parametrize("name", [name for name in FORMATS if name != "csv"])
+def test_observed_pixels_go_through_every_format_but_tables(
+    obs_type: str, name: str, tmp_path: Path, minari_root: Path, assert_same: Same
+) -> None:
+    place = place_for(name, "pixels", tmp_path)
+    with closing(EpisodeRecorder(gym.make("signimit/Tabletop-v0", obs_type=obs_type, size=(32, 48)))) as env:
+        try:
+            env.reset(seed=0)
+        except RenderingError as error:
+            pytest.skip(str(error))
+        for _ in range(2):
+            env.step(env.action_space.sample())
+        recording = env.recording
+    write_data(place, recording, name)
+    assert_same(read_recording(place), recording)
 
 
 @pytest.mark.parametrize("name", FORMATS)
