@@ -19,11 +19,13 @@ from tqdm import tqdm
 import signimit
 from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
+from signimit.intervals import wilson_interval
 from signimit.output import whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.study.asking import asking_cells, run_lessons
 from signimit.study.cells import Cell, People, study_cells
 from signimit.study.figures import draw_calibration, draw_cells, draw_growth, draw_lessons
+from signimit.study.folds import FoldRow, leave_people_out
 from signimit.study.records import OURS, Record, read_records, run_session, run_sessions
 from signimit.study.scaling import Measurement, measure_growth
 from signimit.study.scoring import calibrate
@@ -44,7 +46,7 @@ LONGEST = 100.0  # s of processors; a step that would take longer is not measure
 
 
 def main(
-    what: Literal["cells", "calibration", "asking", "scaling"],
+    what: Literal["cells", "calibration", "asking", "people", "scaling"],
     /,
     *,
     sessions: int = 20,
@@ -60,8 +62,8 @@ def main(
 
     Args:
         what: The table of all cells; the calibration of confidence in the sessions of that table; how much sooner a
-            learner understands that asks; or time and memory against the number of demonstrations. Cells and asking
-            go on where a killed run stopped.
+            learner understands that asks; how people are understood who had no part in its constants; or time and
+            memory against the number of demonstrations. Cells and asking go on where a killed run stopped.
         sessions: How many of each cell.
         first_seed: Seed of the first; the others follow.
         signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
@@ -75,10 +77,10 @@ def main(
         calibration(out)
     elif what == "scaling":
         scaling(counts, out)
+    elif what == "people":
+        people_left_out(load_people(signs, movements), sessions, out)
     else:
-        people = None
-        if signs is not None and movements is not None:
-            people = People(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
+        people = load_people(signs, movements)
         kinds = study_cells if what == "cells" else asking_cells
         chosen = [c for c in kinds(people is not None) if only in c.name]
         if sessions < 1 or not chosen:
@@ -86,6 +88,13 @@ def main(
         workers = workers or max(1, (os.cpu_count() or 2) - 1)
         seeds = range(first_seed, first_seed + sessions)
         (cells if what == "cells" else asking)(chosen, seeds, people, workers, out)
+
+
+def load_people(signs: Path | None, movements: Path | None) -> People | None:
+    """Load real people's strokes, if both kinds are given."""
+    if signs is None or movements is None:
+        return None
+    return People(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
 
 
 def cells(chosen: list[Cell], seeds: range, people: People | None, workers: int, out: Path) -> None:
@@ -124,6 +133,26 @@ def asking(chosen: list[Cell], seeds: range, people: People | None, workers: int
         draw_lessons(rows).savefig(folder / "asking.png", dpi=90)
     for cell, strategy, count in needed:
         print(f"{cell}, asking {strategy}: {UNDERSTOOD:.0%} understood from {count or 'more'} demonstrations on")
+
+
+def people_left_out(people: People | None, sessions: int, out: Path) -> None:
+    """Learn from people who had no part in the constants of the evidence, each left out once."""
+    if people is None or sessions < 1:
+        raise InvalidInputError("people", "--signs, --movements and at least 1 session", "less")
+    rows = []
+    for row in leave_people_out(people, sessions):
+        print(
+            f"{row.mover}, {row.cell}: {row.right_without} of {row.sessions} right with constants measured without "
+            f"these people, {row.right_shipped} with the package's",
+            flush=True,
+        )
+        rows.append(row)
+    with whole_files(out) as folder:
+        write_csv(folder / "people.csv", FoldRow._fields, rows)
+        total = sum(row.sessions for row in rows)
+        counts = {"without": sum(r.right_without for r in rows), "shipped": sum(r.right_shipped for r in rows)}
+        shares = {k: [n, total, *(round(x, 4) for x in wilson_interval(n, total))] for k, n in counts.items()}
+        _write_facts(folder / "people.json", {"people": [p.source for p in people], "right, of, 95 %": shares})
 
 
 def calibration(out: Path) -> None:

@@ -76,20 +76,29 @@ class Hypothesis(NamedTuple):
 
 @dataclass(frozen=True)
 class JointLearner:
-    """Explains all demonstrations at once; needs no prototypes."""
+    """Explains all demonstrations at once; needs no prototypes.
+
+    Attributes:
+        drawings: What a distance of drawings says.
+        signs: What a distance of signs says.
+    """
+
+    drawings: DistanceModel = DRAWINGS
+    signs: DistanceModel = SIGNS
 
     def infer(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, rng: np.random.Generator
     ) -> Understanding:
         """Compare all word orders and return the best explanation; nothing is random."""
-        return _conclude(look(demonstrations))
+        return _conclude(Weighing(look(demonstrations), self.drawings, self.signs))
 
     def extend(self, demonstrations: DemonstrationSet, understanding: Understanding) -> Understanding:
         """Take one more demonstration, the last, into account.
 
         Only its distances are measured. The search, which costs less, starts anew: early mistakes are not kept.
         """
-        return _conclude(Seen(*extended_distances(demonstrations, understanding.diagnostics)))
+        seen = Seen(*extended_distances(demonstrations, understanding.diagnostics))
+        return _conclude(Weighing(seen, self.drawings, self.signs))
 
     def reader(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
@@ -109,8 +118,8 @@ def look(demonstrations: DemonstrationSet) -> Seen:
     return Seen(trace_distances(traces, objects), np.stack(signs), place)
 
 
-def _conclude(seen: Seen) -> Understanding:
-    weighing = Weighing(seen)
+def _conclude(weighing: Weighing) -> Understanding:
+    seen = weighing.seen
     orders = _word_orders(len(seen.signs))
     best = [max(_hypotheses(weighing, order), key=lambda h: h.score) for order in orders]
     chosen = _apart(seen, max(best, key=lambda h: h.score))
@@ -135,12 +144,12 @@ def _word_orders(words: int) -> list[WordOrder]:
 class Weighing:
     """Turns distances into evidence, and remembers it: most hypotheses come to the same scales."""
 
-    def __init__(self, seen: Seen) -> None:
+    def __init__(self, seen: Seen, drawings: DistanceModel, signs: DistanceModel) -> None:
         """Remember nothing yet."""
-        self.seen = seen
+        self.seen, self.drawings, self.signs = seen, drawings, signs
         self._nobody = np.eye(len(seen.place), dtype=bool)
-        self._drawings = lru_cache(len(_TYPICAL) + 1)(partial(self._ratios, DRAWINGS, seen.drawings))
-        self._words = [lru_cache(2)(partial(self._ratios, SIGNS, word)) for word in seen.signs]
+        self._drawings = lru_cache(len(_TYPICAL) + 1)(partial(self._ratios, drawings, seen.drawings))
+        self._words = [lru_cache(2)(partial(self._ratios, signs, word)) for word in seen.signs]
 
     def evidence(self, order: WordOrder, scale: Scale) -> PairEvidence:
         """Weigh all distances under a word order and the session's scales."""
@@ -161,7 +170,7 @@ def _hypotheses(weighing: Weighing, order: WordOrder) -> list[Hypothesis]:
     """Explain the demonstrations under one word order from several starts."""
     found = []
     for typical in _TYPICAL:
-        scale = Scale(typical, SIGNS.equal_mean)
+        scale = Scale(typical, weighing.signs.equal_mean)
         for labels, focus in first_guesses(weighing.evidence(order, scale)):
             found.append(_settle(weighing, order, scale, (labels, focus)))
     return found
@@ -173,11 +182,11 @@ def _settle(
     """Alternate between the explanation and the scales it implies."""
     explanation = improve_explanation(weighing.evidence(order, scale), *guess)
     for _ in range(_ROUNDS):
-        last, scale = scale, _implied_scale(weighing.seen, order, explanation)
+        last, scale = scale, _implied_scale(weighing, order, explanation)
         if scale == last:
             break
         explanation = improve_explanation(weighing.evidence(order, scale), explanation.labels, explanation.focus)
-    prior = DRAWINGS.log_prior(scale.drawings) + SIGNS.log_prior(scale.signs)
+    prior = weighing.drawings.log_prior(scale.drawings) + weighing.signs.log_prior(scale.signs)
     score = explanation.score + prior + _idle_words_score(weighing, order, scale)
     return Hypothesis(order, explanation, scale, score)
 
@@ -192,12 +201,14 @@ def _idle_words_score(weighing: Weighing, order: WordOrder, scale: Scale) -> flo
     return float(total)
 
 
-def _implied_scale(seen: Seen, order: WordOrder, explanation: Explanation) -> Scale:
-    labels, focus, _ = explanation
+def _implied_scale(weighing: Weighing, order: WordOrder, explanation: Explanation) -> Scale:
+    seen, (labels, focus, _) = weighing.seen, explanation
     t, k = pairs_of_equals(labels)
     drawings = seen.drawings[t, k, focus[t], focus[k]]
     signs = np.concatenate([seen.signs[order.movement][t, k], seen.signs[order.focus][pairs_of_equals(focus)]])
-    return Scale(DRAWINGS.posterior_mean(drawings, len(labels)), SIGNS.posterior_mean(signs, len(labels)))
+    return Scale(
+        weighing.drawings.posterior_mean(drawings, len(labels)), weighing.signs.posterior_mean(signs, len(labels))
+    )
 
 
 def _understanding(weighing: Weighing, chosen: Hypothesis, orders: dict[WordOrder, float]) -> Understanding:
