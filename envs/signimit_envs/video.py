@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable, Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 import imageio_ffmpeg
@@ -30,36 +31,77 @@ def write_video(path: str | os.PathLike[str], frames: Iterable[NDArray[np.uint8]
         InvalidInputError: If there are no frames, they are not alike, or the file is not to be an mp4; nothing is left
             behind then.
     """
+    with open_video(path, rate) as video:
+        for frame in frames:
+            video.add(frame)
+    return video.count
+
+
+@contextmanager
+def open_video(path: str | os.PathLike[str], rate: float = CONTROL_RATE) -> Iterator[VideoStream]:
+    """Open an mp4 file (H.264) for frames that come one by one; it appears under its name when the block is left.
+
+    Args:
+        path: The file; one that is there is replaced.
+        rate: Frames per second.
+
+    Yields:
+        What takes the frames.
+
+    Raises:
+        InvalidInputError: If no frame came, or the file is not to be an mp4; nothing is left behind then.
+    """
     if Path(path).suffix.lower() != ".mp4":
         raise InvalidInputError("video", "a name that ends in .mp4", os.fspath(path))
     with replaced_path(path, ".mp4") as beside:
-        return _stream(beside, frames, rate)
+        with closing(VideoStream(beside, rate)) as stream:
+            yield stream
+        if not stream.count:
+            raise InvalidInputError("video", "at least one frame", "none")
 
 
-def _stream(path: Path, frames: Iterable[NDArray[np.uint8]], rate: float) -> int:
-    remaining = iter(frames)
-    first = next(remaining, None)
-    if first is None:
-        raise InvalidInputError("video", "at least one frame", "none")
-    shape = _checked(first, first.shape).shape
-    writer = imageio_ffmpeg.write_frames(
-        str(path), (shape[1], shape[0]), fps=rate, quality=7, macro_block_size=2, ffmpeg_log_level="error"
-    )
-    writer.send(None)
-    count = 1
-    try:
-        writer.send(np.ascontiguousarray(first))
-        for frame in remaining:
-            writer.send(np.ascontiguousarray(_checked(frame, shape)))
-            count += 1
-    finally:
-        writer.close()
-    return count
+class VideoStream:
+    """Encodes frames into a file as they come.
+
+    Attributes:
+        count: How many came.
+    """
+
+    def __init__(self, path: Path, rate: float) -> None:
+        """Remember where to; the first frame decides the size."""
+        self._path, self._rate, self.count = path, rate, 0
+        self._shape: tuple[int, ...] = ()
+        self._writer: Generator[None, NDArray[np.uint8] | None, None] | None = None
+
+    def add(self, frame: NDArray[np.uint8]) -> None:
+        """Take the next frame, shape (height, width, 3).
+
+        Raises:
+            InvalidInputError: If it is no such frame, or not like the first.
+        """
+        _check(frame, self._shape or frame.shape)
+        if self._writer is None:
+            self._shape, self._writer = frame.shape, self._open(frame.shape)
+        self._writer.send(np.ascontiguousarray(frame))
+        self.count += 1
+
+    def close(self) -> None:
+        """Finish the file; may be called again."""
+        if self._writer is not None:
+            self._writer.close()
+            self._writer = None
+
+    def _open(self, shape: tuple[int, ...]) -> Generator[None, NDArray[np.uint8] | None, None]:
+        size = shape[1], shape[0]
+        writer: Generator[None, NDArray[np.uint8] | None, None] = imageio_ffmpeg.write_frames(
+            str(self._path), size, fps=self._rate, quality=7, macro_block_size=2, ffmpeg_log_level="error"
+        )
+        writer.send(None)
+        return writer
 
 
-def _checked(frame: NDArray[np.uint8], shape: tuple[int, ...]) -> NDArray[np.uint8]:
+def _check(frame: NDArray[np.uint8], shape: tuple[int, ...]) -> None:
     even = frame.ndim == 3 and frame.shape[2] == 3 and frame.shape[0] % 2 == frame.shape[1] % 2 == 0
     if not even or frame.shape != shape or frame.dtype != np.uint8:
         expected = "frames (height, width, 3) of bytes, all alike, sides even"
         raise InvalidInputError("video", expected, f"{frame.dtype} of shape {frame.shape}")
-    return frame
