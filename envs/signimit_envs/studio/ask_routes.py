@@ -59,7 +59,7 @@ async def verdict(studio: TheStudio, session_id: SessionId, number: Number, body
     """Keep what a person thinks of an answer."""
     session = await studio.open(session_id)
     _check_answer(session, number)
-    await session.note(lambda _: Judged(number, body.good))
+    await session.note(Judged(number, body.good))
     studio.changed(session)
     return session_json(session, studio.arm.state)
 

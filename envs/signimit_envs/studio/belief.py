@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from signimit.asking import Query
 from signimit.explanation import Reasons
-from signimit.learning import ImitationModel, Response
+from signimit.learning import ImitationModel
 from signimit.signs import normalised_sign, resampled_path
 from signimit.summary import object_name, ordinal
 
@@ -62,11 +62,6 @@ def doubts(reasons: Reasons) -> list[dict[str, Any]]:
     return [
         {"number": number, "text": f"Demonstration {number}: {', '.join(found[number])}."} for number in sorted(found)
     ]
-
-
-def answer_text(response: Response) -> str:
-    """Say what an answer is, e.g. "movement 2 about the green object, 94 %"."""
-    return understood_text(response.movement, response.focus, response.confidence)
 
 
 def understood_text(movement: int, focus: int, confidence: float) -> str:

@@ -73,7 +73,7 @@ async def _ask(studio: Studio, session: OpenSession, request: Request, attempt: 
     _meddle(studio, request, attempt)
     await asyncio.sleep(pace * (_ANSWER_PAUSE - _MEDDLE_AFTER))
     good = await asyncio.to_thread(_is_obeyed, studio, session, number)
-    await session.note(lambda _: Judged(number, good))
+    await session.note(Judged(number, good))
     studio.changed(session)
 
 

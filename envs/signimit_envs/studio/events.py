@@ -18,6 +18,7 @@ from signimit.exceptions import InvalidInputError
 from signimit.languages import Request
 from signimit.strokes import Stroke
 from signimit.validation import finite_array
+from signimit_envs.scene import OBJECT_COUNTS
 
 Signs = tuple[Stroke, ...]
 
@@ -56,13 +57,33 @@ class Shown:
 
 @dataclass(frozen=True, eq=False)
 class Created:
-    """A session began; always the first event."""
+    """A session began; always the first event.
+
+    Attributes:
+        title: What it is called at first.
+        created: When, ISO 8601, local time.
+        language: Name of the language, or that there is none.
+        objects: Objects in a scene.
+        seed: Decides scenes, prompts and built-in people.
+    """
 
     title: str
     created: str
     language: str
     objects: int
     seed: int
+
+    def __post_init__(self) -> None:
+        """Check what comes from a file.
+
+        Raises:
+            InvalidInputError: If it is something else.
+        """
+        texts = all(isinstance(text, str) for text in (self.title, self.created, self.language))
+        numbers = all(type(number) is int and number >= 0 for number in (self.objects, self.seed))
+        if not texts or not numbers or self.objects not in OBJECT_COUNTS:
+            found = f"{(self.title, self.created, self.language, self.objects, self.seed)!r:.80}"
+            raise InvalidInputError("session", "a title, a time, a language, 2 to 6 objects and a seed", found)
 
 
 @dataclass(frozen=True, eq=False)

@@ -42,6 +42,7 @@ class History:
         shown: The demonstrations that count now.
         answers: What the arm was asked.
         revision: How many edits there were; asking and judging are none.
+        events: How many events there were.
         past: What undo brings back, the latest last.
         future: What redo brings back, the next last.
     """
@@ -51,6 +52,7 @@ class History:
     shown: Demonstrations = ()
     answers: tuple[Given, ...] = ()
     revision: int = 0
+    events: int = 1
     past: tuple[Demonstrations, ...] = ()
     future: tuple[Demonstrations, ...] = ()
 
@@ -74,6 +76,10 @@ def after(history: History, event: Event) -> History:
     Raises:
         InvalidInputError: If that cannot happen now.
     """
+    return replace(_after(history, event), events=history.events + 1)
+
+
+def _after(history: History, event: Event) -> History:
     match event:
         case Asked():
             return replace(history, answers=(*history.answers, Given(event)))

@@ -5,12 +5,11 @@ from __future__ import annotations
 import asyncio
 import functools
 from collections import deque
-from collections.abc import Callable
 from concurrent.futures import Executor
 
 from signimit.exceptions import InvalidInputError, SignimitError
 from signimit.learning import ImitationModel
-from signimit_envs.studio.events import Asked, Created, Deleted, Demonstrated, Event, Redrawn
+from signimit_envs.studio.events import Asked, Created, Deleted, Demonstrated, Event, Judged, Redrawn
 from signimit_envs.studio.history import History, after
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.shelf import Shelf
@@ -93,13 +92,16 @@ class OpenSession:
         """
         await asyncio.shield(self._edit(revision, event))
 
-    async def note(self, make: Callable[[History], Event]) -> None:
-        """Add what is no edit: an answer or a verdict; goes on to the end even if whoever asked for it goes away.
+    async def note(self, event: Asked | Judged) -> History:
+        """Add what is no edit; goes on to the end even if whoever asked for it goes away.
 
-        Args:
-            make: Makes the event from the session as it is when its turn has come.
+        Returns:
+            The session just after it.
+
+        Raises:
+            InvalidInputError: If it cannot be.
         """
-        await asyncio.shield(self._note(make))
+        return await asyncio.shield(self._note(event))
 
     async def _edit(self, revision: int, event: Event) -> None:
         async with self._lock:
@@ -113,9 +115,10 @@ class OpenSession:
         if understood is not None:
             self._learner.submit(self._prepare_policies, understood)
 
-    async def _note(self, make: Callable[[History], Event]) -> None:
+    async def _note(self, event: Event) -> History:
         async with self._lock:
-            self.history = await self._written(make(self.history))
+            self.history = await self._written(event)
+            return self.history
 
     async def _written(self, event: Event) -> History:
         """Put an event on the disk, and return the session after it."""
@@ -148,7 +151,7 @@ def _check_room(history: History, event: Event) -> None:
     counts = (
         ("demonstrations", len(history.shown), LIMITS.demonstrations, Demonstrated | Redrawn | Deleted),
         ("answers", len(history.answers), LIMITS.answers, Asked),
-        ("edits", history.revision, LIMITS.events, object),
+        ("events", history.events, LIMITS.events, object),
     )
     for what, count, most, kinds in counts:
         if count > most and isinstance(event, kinds):

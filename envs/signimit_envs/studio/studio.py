@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from signimit.languages import Request
 from signimit.scenes import sample_hand, sample_scene
 from signimit_envs.scene import CONTROL_RATE
-from signimit_envs.studio.belief import answer_text
+from signimit_envs.studio.belief import understood_text
 from signimit_envs.studio.camera import Camera
 from signimit_envs.studio.events import Asked, Created, Signs
 from signimit_envs.studio.history import History
@@ -126,15 +126,10 @@ class Studio:
         objects = state.objects if state.session == session.name else self.set_table(session)[0]
         response = await asyncio.to_thread(model.respond, [sign.points for sign in signs], objects)
         policy = await asyncio.to_thread(model.policy, response.movement)
-        numbers: list[int] = []
-
-        def asked(history: History) -> Asked:
-            numbers.append(len(history.answers))
-            return Asked(signs, response.movement, response.focus, response.confidence, request)
-
-        await session.note(asked)
-        self.arm.obey(Errand(session.name, numbers[0], policy, response.focus, answer_text(response)))
-        return numbers[0]
+        understood = response.movement, response.focus, response.confidence
+        number = len((await session.note(Asked(signs, *understood, request))).answers) - 1
+        self.arm.obey(Errand(session.name, number, policy, response.focus, understood_text(*understood)))
+        return number
 
     async def develop(self, work: Callable[[], Result]) -> Result:
         """Make a figure or a film: one at a time, or the arm would get too little of the processor.

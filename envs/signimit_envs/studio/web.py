@@ -69,8 +69,14 @@ def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
                     await playing
             await asyncio.to_thread(studio.close)
 
-    app = FastAPI(title="signimit studio", version=__version__, docs_url=None, redoc_url=None, lifespan=living)
-    _tell_errors(app)
+    app = FastAPI(
+        title="signimit studio",
+        version=__version__,
+        docs_url=None,  # its page would fetch a script from elsewhere
+        redoc_url=None,
+        lifespan=living,
+        exception_handlers=_HANDLERS,
+    )
     app.state.studio = studio
     for part in (teach_routes, ask_routes, look_routes, keep_routes):
         app.include_router(part.routes)
@@ -129,47 +135,49 @@ def _serve_page(app: FastAPI) -> None:
         return Response(files[name].read_bytes(), media_type=media_type)
 
 
-def _tell_errors(app: FastAPI) -> None:
-    """Answer every kind of error with its code and one sentence."""
+def _refused(status: int, sentence: str, **more: Any) -> JSONResponse:
+    _log.warning("refused with %d: %s", status, sentence)
+    return JSONResponse({"error": sentence, **more}, status)
 
-    def refused(status: int, sentence: str, **more: Any) -> JSONResponse:
-        _log.warning("refused with %d: %s", status, sentence)
-        return JSONResponse({"error": sentence, **more}, status)
 
-    @app.exception_handler(SignimitError)
-    async def unusable(request: Request, error: SignimitError) -> JSONResponse:
-        return refused(422, str(error))
+async def _said(request: Request, error: Exception) -> Response:
+    """Answer an error of ours: its kind decides the code, and it is a sentence already."""
+    codes = (status for kind, status in _CODES.items() if isinstance(error, kind))
+    more = {"revision": error.latest} if isinstance(error, StaleRevisionError) else {}
+    return _refused(next(codes), str(error), **more)
 
-    @app.exception_handler(StaleRevisionError)
-    async def stale(request: Request, error: StaleRevisionError) -> JSONResponse:
-        return refused(409, str(error), revision=error.latest)
 
-    @app.exception_handler(RenderingError)
-    async def blind(request: Request, error: RenderingError) -> JSONResponse:
-        return refused(503, str(error))
+async def _unwritten(request: Request, error: Exception) -> Response:
+    reason = getattr(error, "strerror", None) or "the disk failed"
+    return _refused(507, f"The studio could not keep this: {reason}.")
 
-    @app.exception_handler(NotHereError)
-    async def missing(request: Request, error: NotHereError) -> JSONResponse:
-        return refused(404, str(error))
 
-    @app.exception_handler(OSError)
-    async def unwritten(request: Request, error: OSError) -> JSONResponse:
-        return refused(507, f"The studio could not keep this: {error.strerror or 'the disk failed'}.")
+async def _failed(request: Request, error: Exception) -> Response:
+    return _refused(500, "The studio failed; its log says how.")
 
-    @app.exception_handler(Exception)
-    async def failed(request: Request, error: Exception) -> JSONResponse:
-        return refused(500, "The studio failed; its log says how.")
 
-    @app.exception_handler(BusyError)
-    async def busy(request: Request, error: BusyError) -> JSONResponse:
-        return refused(429, str(error))
+async def _unrouted(request: Request, error: Exception) -> Response:
+    status, detail = getattr(error, "status_code", 500), getattr(error, "detail", "It failed")
+    return _refused(status, f"{detail}.")
 
-    @app.exception_handler(HTTPException)
-    async def http(request: Request, error: HTTPException) -> JSONResponse:
-        return refused(error.status_code, str(error.detail))
 
-    @app.exception_handler(RequestValidationError)
-    async def malformed(request: Request, error: RequestValidationError) -> JSONResponse:
-        errors = error.errors()
-        status = 400 if any(one["type"] == "json_invalid" for one in errors) else 422
-        return refused(status, complaint(errors))
+async def _malformed(request: Request, error: Exception) -> Response:
+    errors = error.errors() if isinstance(error, RequestValidationError) else ()
+    status = 400 if any(one["type"] == "json_invalid" for one in errors) else 422
+    return _refused(status, complaint(errors))
+
+
+_CODES: dict[type[Exception], int] = {  # of an error's kinds the first counts
+    StaleRevisionError: 409,
+    RenderingError: 503,
+    NotHereError: 404,
+    BusyError: 429,
+    SignimitError: 422,
+}
+_HANDLERS: dict[int | type[Exception], Callable[[Request, Any], Coroutine[Any, Any, Response]]] = {
+    **dict.fromkeys(_CODES, _said),
+    OSError: _unwritten,
+    HTTPException: _unrouted,
+    RequestValidationError: _malformed,
+    Exception: _failed,
+}

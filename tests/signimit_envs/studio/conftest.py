@@ -21,7 +21,7 @@ from signimit_envs.studio.serving import StudioPlan, running_studio  # noqa: E40
 Json = dict[str, Any]
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     with running_studio(StudioPlan(folder=tmp_path_factory.mktemp("studio"))) as where:
         yield where
@@ -75,7 +75,7 @@ def page(address: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[Page]:
     somebody.browser.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def taught_id(address: str) -> str:
     """Name of a session with all twelve demonstrations of the paper's language; do not edit it."""
     with pytest.MonkeyPatch.context() as patch:

@@ -78,6 +78,15 @@ def test_an_event_that_lacks_something_is_refused(lacking: str, shown: Callable[
         event_from_json(value)
 
 
+@pytest.mark.parametrize(
+    ("name", "value"), [("objects", 7), ("objects", "3"), ("seed", -1), ("title", None), ("seed", 0.5)]
+)
+def test_a_beginning_that_is_none_is_refused(name: str, value: Any) -> None:
+    beginning = event_to_json(Created("a title", "2020-01-01T00:00:00", "paper", 3, 7))
+    with pytest.raises(InvalidInputError, match="session: expected a title, a time"):
+        event_from_json({**beginning, name: value})
+
+
 def test_a_stroke_that_is_not_finite_is_refused(shown: Callable[[], Shown]) -> None:
     value = event_to_json(Demonstrated((shown(),)))
     value["shown"][0]["hand"]["points"][3][0] = float("nan")

@@ -92,6 +92,13 @@ def test_undo_brings_back_what_was_believed_without_learning_again(
     assert redone["belief"] == after["belief"]
 
 
+def test_a_session_takes_only_so_many_events(page: Any, session: Json, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit_envs.studio.open_session.LIMITS", Limits(events=3))
+    where = f"sessions/{session['id']}/title"
+    codes = [page.ask("POST", where, json={"revision": n, "title": "new"}).status_code for n in range(4)]
+    assert codes == [200, 200, 422, 409]
+
+
 def test_too_many_figures_at_once_are_refused(page: Any, taught_id: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("signimit_envs.studio.studio.LIMITS", Limits(waiting=0))
     assert page.ask("GET", f"sessions/{taught_id}/similarities").status_code == 429
