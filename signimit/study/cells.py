@@ -95,7 +95,7 @@ class Cell:
 
 PLAIN_SIZES = (
     (2, 2, 1), (2, 3, 2), (3, 3, 1), (3, 3, 2), (3, 3, 4), (5, 3, 1), (5, 4, 1), (8, 3, 1), (8, 2, 2), (3, 6, 1),
-    (5, 6, 1),
+    (5, 6, 1), (3, 3, 6), (2, 4, 5), (6, 2, 3), (8, 6, 1),
 )  # fmt: skip
 
 
@@ -104,12 +104,13 @@ def study_cells(real: bool) -> list[Cell]:
     cells = [Cell(movements=m, objects=o, repetitions=r) for m, o, r in PLAIN_SIZES]
     for condition in CONDITIONS[1:]:
         cells.append(Cell(movements=3, objects=3, repetitions=2, condition=condition))
-    cells += [Cell(movements=5, objects=4, repetitions=1, condition=c) for c in ("noise", "unseen third")]
+    cells += [Cell(movements=5, objects=4, repetitions=1, condition=c) for c in CONDITIONS[1:]]
     if real:
-        sizes = ((3, 3, 1), (3, 3, 2), (5, 4, 1), (7, 3, 1))
+        sizes = ((3, 3, 1), (3, 3, 2), (5, 4, 1), (7, 3, 1), (3, 3, 5), (7, 6, 1))
         cells.append(Cell(movements=7, objects=3, repetitions=1, condition="mixed", people="real"))
         cells += [Cell(movements=m, objects=o, repetitions=r, people="real") for m, o, r in sizes]
         cells += [Cell(movements=3, objects=3, repetitions=2, condition=c, people="real") for c in CONDITIONS[1:]]
+        cells += [Cell(movements=5, objects=4, repetitions=1, condition=c, people="real") for c in CONDITIONS[1:]]
     return cells
 
 
