@@ -83,8 +83,7 @@ def test_an_observation_that_is_one_array_is_recorded_too() -> None:
     np.testing.assert_array_equal(episode.observations["observation"][0], first)
 
 
-@pytest.mark.parametrize("control", ["hand", "joint"])
-@pytest.mark.parametrize("obs_type", ["state", "pixels", "state_pixels"])
+@pytest.mark.parametrize(("control", "obs_type"), [("joint", "state"), ("joint", "pixels"), ("hand", "state_pixels")])
 def test_whatever_is_observed_and_commanded_is_recorded_and_replays(
     control: str, obs_type: str, tmp_path: Path, assert_same: Same
 ) -> None:
