@@ -78,9 +78,7 @@ def _field(name: str, value: Any) -> Any:
     if name in _NUMBERS:
         return _whole(value, name)
     if name == "unseen":
-        return (
-            None if value is None else tuple(Request(*(_whole(v, name) for v in pair)) for pair in _items(value, name))
-        )
+        return None if value is None else tuple(_request(pair) for pair in _items(value, name))
     labels = _items(value, name)
     if not all(isinstance(label, str) for label in labels):
         raise InvalidInputError(f"language: {name}", "labels", f"{value!r:.60}")
