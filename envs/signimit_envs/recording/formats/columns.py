@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections import Counter
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -39,7 +42,15 @@ class Field(NamedTuple):
     @property
     def width(self) -> int:
         """How many columns it takes."""
-        return int(np.prod(self.shape, dtype=np.int64))
+        return math.prod(self.shape)
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """Least and largest number of its type."""
+        if self.dtype.kind == "b":
+            return 0, 1
+        known = np.finfo(self.dtype) if self.dtype.kind == "f" else np.iinfo(self.dtype)
+        return known.min, known.max
 
     @property
     def columns(self) -> list[str]:
@@ -106,15 +117,16 @@ def fields_from_meta(meta: Any, where: str) -> list[Field]:
     return fields
 
 
-def check_columns(columns: list[str], most: int) -> None:
-    """Refuse columns that are too many or of the same name.
+def check_columns(fields: Sequence[Field], most: int) -> None:
+    """Refuse fields that are too many columns, or columns of the same name.
 
     Raises:
         InvalidInputError: Says which.
     """
-    if len(columns) > most:
+    total = sum(field.width for field in fields)
+    if total > most:
         expected = f"at most {most} numbers a step (record states, and let replay.py draw the pixels)"
-        raise InvalidInputError("recording", expected, f"{len(columns)}")
-    twice = sorted({name for name in columns if columns.count(name) > 1})
-    if twice:
-        raise InvalidInputError("recording", "a column for each number", f"{twice[0]!r} twice")
+        raise InvalidInputError("recording", expected, f"{total}")
+    name, count = Counter(column for field in fields for column in field.columns).most_common(1)[0]
+    if count > 1:
+        raise InvalidInputError("recording", "a column for each number", f"{name!r} twice")

@@ -8,6 +8,7 @@ episode: how many steps it has, its seed, and what stayed the same throughout. `
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -46,14 +47,12 @@ def write_csv_recording(folder: str | os.PathLike[str], recording: Recording, ov
     """
     constant = constant_fields(recording)
     still, moving = _split(fields_of(recording), constant)
-    columns = {EPISODES: [*_EPISODE_KEYS, *_columns(still)], STEPS: [*_STEP_KEYS, *_columns(moving)]}
-    for names in columns.values():
-        check_columns(names, _MOST_COLUMNS)
+    check_columns([*still, *moving], _MOST_COLUMNS)
     header = {"kind": KIND, "version": VERSION, "fields": fields_to_meta(recording), "constant": sorted(constant)}
     with whole_folder(folder, STEPS, overwrite) as draft:
         write_origin(draft, recording.origin, header)
-        write_table(draft / EPISODES, columns[EPISODES], _episode_lines(recording, still))
-        write_table(draft / STEPS, columns[STEPS], _step_lines(recording, moving))
+        write_table(draft / EPISODES, [*_EPISODE_KEYS, *_columns(still)], _episode_lines(recording, still))
+        write_table(draft / STEPS, [*_STEP_KEYS, *_columns(moving)], _step_lines(recording, moving))
 
 
 def read_csv_recording(folder: str | os.PathLike[str]) -> Recording:
@@ -65,8 +64,12 @@ def read_csv_recording(folder: str | os.PathLike[str]) -> Recording:
     place = Path(folder)
     origin, header = read_origin(place, KIND, VERSION)
     fields = fields_from_meta(header.get("fields"), str(place))
-    still, moving = _split(fields, set(header.get("constant", ())))
     try:
+        check_columns(fields, _MOST_COLUMNS)
+        constant = header.get("constant")
+        if not isinstance(constant, list):
+            raise InvalidInputError("constant", "a list", type(constant).__name__)
+        still, moving = _split(fields, set(map(str, constant)))
         lines = list(read_table(place / EPISODES, [*_EPISODE_KEYS, *_columns(still)]))
         steps = read_table(place / STEPS, [*_STEP_KEYS, *_columns(moving)])
         episodes = [_episode(number, line, steps, still, moving) for number, line in enumerate(lines)]
@@ -120,13 +123,7 @@ def _episode(number: int, line: Row, steps: Iterator[Row], still: list[Field], m
     count = line.whole(1)
     if count < 1:
         raise line.complaint(1, "at least 1")
-    seed = line.whole(2) if line.cells[2] else None
-    arrays = {}
-    start = len(_EPISODE_KEYS)
-    for field in still:
-        arrays[field.name] = np.repeat(field.shaped([_read(line, start, field)]), count + 1, axis=0)
-        start += field.width
-    table: dict[str, list[list[float]]] = {field.name: [] for field in moving}
+    table: dict[str, list[list[Any]]] = {field.name: [] for field in moving}
     for step in range(count + 1):
         row = next(steps, None)
         if row is None:
@@ -134,11 +131,21 @@ def _episode(number: int, line: Row, steps: Iterator[Row], still: list[Field], m
         row.expect(0, [number])
         row.expect(1, [step])
         _read_step(row, moving, step == count, table)
-    arrays.update({field.name: field.shaped(table[field.name]) for field in moving})
-    return episode_from_arrays(arrays, seed)
+    arrays = {field.name: field.shaped(table[field.name]) for field in moving}
+    seed = line.whole(2) if line.cells[2] else None
+    return episode_from_arrays({**arrays, **_repeated(line, still, count + 1)}, seed)
 
 
-def _read_step(row: Row, fields: list[Field], last: bool, table: dict[str, list[list[float]]]) -> None:
+def _repeated(line: Row, fields: list[Field], rows: int) -> dict[str, NDArray[Any]]:
+    """Read what stays the same throughout an episode."""
+    arrays, start = {}, len(_EPISODE_KEYS)
+    for field in fields:
+        arrays[field.name] = np.repeat(field.shaped([_read(line, start, field)]), rows, axis=0)
+        start += field.width
+    return arrays
+
+
+def _read_step(row: Row, fields: list[Field], last: bool, table: dict[str, list[list[Any]]]) -> None:
     start = len(_STEP_KEYS)
     for field in fields:
         if not last or has_last_row(field.name):
@@ -149,7 +156,14 @@ def _read_step(row: Row, fields: list[Field], last: bool, table: dict[str, list[
 
 
 def _read(row: Row, start: int, field: Field) -> list[Any]:
+    """Read a field's numbers, which have to be such as its type can hold."""
     stop = start + field.width
     if field.dtype.kind != "f":
-        return [row.whole(column) for column in range(start, stop)]
-    return row.measurements(start, stop) if field.name.startswith("infos.") else row.numbers(start, stop)
+        values: list[Any] = [row.whole(column) for column in range(start, stop)]
+    else:
+        values = row.measurements(start, stop) if field.name.startswith("infos.") else row.numbers(start, stop)
+    low, high = field.limits
+    for column, value in enumerate(values, start):
+        if math.isfinite(value) and not low <= value <= high:
+            raise row.complaint(column, f"{field.dtype.name}, {low} to {high}")
+    return values

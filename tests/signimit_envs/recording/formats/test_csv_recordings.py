@@ -117,6 +117,43 @@ class Pixels(gym.ObservationWrapper[Any, Any, Any]):
         return np.zeros((80, 80, 3), np.uint8)
 
 
+def test_a_number_that_its_type_cannot_hold_is_named(recording: Recording, tmp_path: Path) -> None:
+    arrays = episode_arrays(recording[0])
+    small = {**arrays, "observations.byte": np.arange(41, dtype=np.uint8)}
+    write_csv_recording(tmp_path / "r", Recording(recording.origin, [episode_from_arrays(small, None)]))
+    path = tmp_path / "r" / "steps.csv"
+    lines = path.read_text().splitlines()
+    column = lines[0].split(",").index("observations.byte")
+    cells = lines[5].split(",")
+    lines[5] = ",".join([*cells[:column], "256", *cells[column + 1 :]])
+    path.write_text("\n".join(lines) + "\n")
+    with pytest.raises(
+        si.SignimitError, match=r"line 6, column observations\.byte: expected uint8, 0 to 255, found '256'"
+    ):
+        read_csv_recording(tmp_path / "r")
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "complaint"),
+    [
+        ("constant", 5, "expected a list, found int"),
+        ("fields", {"states": ["<f8", [2**40, 2**40]]}, "expected a field of numbers"),
+        ("fields", {"states": ["<f8", [20_000]]}, "expected at most 10000 numbers a step"),
+        ("fields", {"states": ["O", [2]]}, "expected a field of numbers"),
+        ("fields", None, "expected the types and shapes of a recording"),
+        ("version", 2, "expected a recording of version <= 1, found recording version 2"),
+    ],
+)
+def test_a_header_that_cannot_be_is_refused(
+    recording: Recording, tmp_path: Path, key: str, value: object, complaint: str
+) -> None:
+    write_csv_recording(tmp_path / "r", recording)
+    path = tmp_path / "r" / "recording.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), key: value}))
+    with pytest.raises(si.SignimitError, match=complaint):
+        read_csv_recording(tmp_path / "r")
+
+
 def test_pixels_are_too_many_columns(tmp_path: Path) -> None:
     with closing(EpisodeRecorder(Pixels(gym.make("signimit/Tabletop-v0")))) as env:
         env.reset()
