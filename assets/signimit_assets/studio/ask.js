@@ -4,6 +4,7 @@ import * as api from "./api.js";
 import { AskTable } from "./asktable.js";
 import { attempt, button, byId, capital, make, percent } from "./dom.js";
 import { SignPad } from "./pad.js";
+import { thumbPicture } from "./pictures.js";
 import { accept, objectName, path, people, refresh, store, subscribe } from "./store.js";
 
 const INVITATION = "Draw two signs; the arm answers as the second one is done.";
@@ -117,14 +118,13 @@ export class Ask {
   thumbs(answer) {
     const judge = (good) =>
       attempt(async () => accept(await api.post(path(`answers/${answer.number}/verdict`), { good: answer.verdict === good ? null : good })));
-    const thumb = (good, sign, words) =>
-      button(sign, () => judge(good), {
-        className: "thumb-verdict",
-        "aria-pressed": String(answer.verdict === good),
-        "aria-label": `${words}: answer ${answer.number}`,
-        title: words,
-      });
-    return [thumb(true, "👍 Right", "That is what I asked for"), thumb(false, "👎 Wrong", "That is not what I asked for")];
+    const thumb = (good, word, title) => {
+      const pressed = String(answer.verdict === good);
+      const made = button("", () => judge(good), { className: "verdict", "aria-pressed": pressed, title });
+      made.append(thumbPicture(good), word);
+      return made;
+    };
+    return [thumb(true, "Right", "That is what I asked for"), thumb(false, "Wrong", "That is not what I asked for")];
   }
 
   showPeople(before) {
@@ -158,7 +158,7 @@ export class Ask {
       const wanted = answer.request && language
         ? `asked for: ${language.movements[answer.request.movement]} about ${objectName(answer.request.focus)}`
         : "";
-      const verdict = { true: "👍", false: "👎", null: "" }[String(answer.verdict)];
+      const verdict = { true: "· judged right", false: "· judged wrong", null: "" }[String(answer.verdict)];
       return make(
         "li",
         {},

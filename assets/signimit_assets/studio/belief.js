@@ -4,6 +4,7 @@ import { attempt, button, byId, capital, make, percent } from "./dom.js";
 import { beliefSentence, movementPicture, objectPatch, scenePicture, signPicture } from "./pictures.js";
 import { demonstration, objectName, store, subscribe } from "./store.js";
 
+const NEIGHBOURHOOD = 0.17; // m about the object that is shown of a movement
 const ORDINALS = ["first", "second"];
 let selected = null;
 let hooks = {};
@@ -137,7 +138,7 @@ function movementCard(belief) {
     return make(
       "li",
       { className: "meaning" },
-      movementPicture(word.drawings, `Movement ${number}, as it was drawn about the object`),
+      movementPicture(word.drawings, `Movement ${number}, as it was drawn about the object`, NEIGHBOURHOOD),
       make("div", {}, make("b", { textContent: `Movement ${number}` }), chips(belief, members)),
       signs(word.strokes, `means movement ${number}`),
     );

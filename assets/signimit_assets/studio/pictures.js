@@ -35,9 +35,14 @@ const SHAPES = [
 
 /** A patch of an object's colour and shape, with its letter. */
 export function objectPatch(index) {
-  const letter = makeSvg("text", { x: 0, y: 0.36, class: "letter" });
-  letter.textContent = objectName(index).charAt(0).toUpperCase();
-  return makeSvg("svg", { viewBox: "-1.3 -1.3 2.6 2.6", class: "patch", "aria-hidden": "true" }, shape(index, 0, 0, 1), letter);
+  const box = { viewBox: "-1.3 -1.3 2.6 2.6", class: "patch", "aria-hidden": "true" };
+  return makeSvg("svg", box, shape(index, 0, 0, 1), letter(index, 0, 0.36, 1));
+}
+
+function letter(index, x, y, size) {
+  const made = makeSvg("text", { x, y, "font-size": size, class: "letter" });
+  made.textContent = objectName(index).charAt(0).toUpperCase();
+  return made;
 }
 
 function shape(index, x, y, r) {
@@ -54,9 +59,9 @@ export function scenePicture(shown, probability, label) {
   const rings = (probability ?? []).map((share, i) => (share >= 0.02 ? ring(shown.objects[i], share) : ""));
   return makeSvg(
     "svg",
-    { viewBox: "-0.56 -0.5 1.12 1", class: "scene", role: "img", "aria-label": label },
+    { viewBox: "-0.52 -0.47 1.04 0.94", class: "scene", role: "img", "aria-label": label },
     makeSvg("rect", { x: -0.56, y: -0.5, width: 1.12, height: 1, class: "wood" }),
-    ...shown.objects.map(([x, y], i) => shape(i, x, -y, 0.045)),
+    ...shown.objects.flatMap(([x, y], i) => [shape(i, x, -y, 0.045), letter(i, x, -y + 0.018, 0.05)]),
     makeSvg("polyline", { points: line(shown.hand.points), class: "halo" }),
     makeSvg("polyline", { points: line(shown.hand.points), class: "path" }),
     ...rings,
@@ -65,7 +70,7 @@ export function scenePicture(shown, probability, label) {
 }
 
 function ring([x, y], share) {
-  const around = { cx: x, cy: -y, r: 0.095, pathLength: 100, transform: `rotate(-90 ${x} ${-y})` };
+  const around = { cx: x, cy: -y, r: 0.075, pathLength: 100, transform: `rotate(-90 ${x} ${-y})` };
   const dash = { "stroke-dasharray": `${(100 * share).toFixed(1)} 100` };
   return makeSvg(
     "g",
@@ -80,4 +85,11 @@ export function beliefSentence(belief, number) {
   const focus = belief.focus[number];
   const sure = percent(belief.focus_probability[number][focus]);
   return capital(`movement ${belief.labels[number]} about the ${objectName(focus)} object, ${sure}`);
+}
+
+/** A thumb, up or down. */
+export function thumbPicture(up) {
+  const hand = "M2 11h4v9H2zM8 20V11l4-8c1.7 0 2.6 1.3 2.2 2.9L13.4 9H19c1.5 0 2.4 1.3 2 2.7l-1.8 6.6A2.3 2.3 0 0 1 17 20z";
+  const turned = up ? {} : { transform: "rotate(180 12 12)" };
+  return makeSvg("svg", { viewBox: "0 0 24 24", class: "icon", "aria-hidden": "true" }, makeSvg("path", { d: hand, ...turned }));
 }
