@@ -61,12 +61,15 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
         return observation, info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
-        """Do a step, as the environment does."""
-        given = np.array(action)
-        observation, reward, terminated, truncated, info = self.env.step(action)
-        draft = self._draft
+        """Do a step, as the environment does.
+
+        Raises:
+            InvalidInputError: If there was no reset, or the last one failed.
+        """
+        draft, given = self._draft, np.array(action)
         if draft is None:
-            raise InvalidInputError("recorder", "reset before step", "step")
+            raise InvalidInputError("recorder", "a reset before the first step", "none")
+        observation, reward, terminated, truncated, info = self.env.step(action)
         draft.see(observation, info, self._state())
         draft.actions.append(given)
         draft.controls.append(self._data.ctrl.copy())

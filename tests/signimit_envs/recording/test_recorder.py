@@ -72,6 +72,10 @@ def test_each_reset_begins_an_episode_and_one_without_steps_is_none(recording: R
         env.reset()
         with pytest.raises(si.InvalidInputError, match="recording: expected at least one, found none"):
             _ = env.recording
+        with pytest.raises(si.UnknownNameError):
+            env.reset(options={"wheels": 4})
+        with pytest.raises(si.InvalidInputError, match="expected a reset before the first step, found none"):
+            env.step(np.zeros(3, np.float32))
 
 
 def test_an_observation_that_is_one_array_is_recorded_too() -> None:

@@ -113,13 +113,12 @@ class Layout:
         """Check names.
 
         Raises:
-            InvalidInputError: If one has a slash, which LeRobot reserves.
+            InvalidInputError: If one has a slash, which LeRobot reserves, or is there twice.
         """
+        taken = [*INDICES, *(video.key for video in self.videos)]
         for name in self.features:
-            if "/" in name or name in INDICES:
-                raise InvalidInputError(
-                    "LeRobot feature", f"a name without '/', and none of {', '.join(INDICES)}", name
-                )
+            if "/" in name or name in taken:
+                raise InvalidInputError("LeRobot feature", f"a name without '/', and none of {', '.join(taken)}", name)
 
     @cached_property
     def starts(self) -> NDArray[np.int64]:

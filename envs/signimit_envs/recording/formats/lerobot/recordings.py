@@ -50,6 +50,7 @@ _FIXED = {
     "states": "physics.state",
     "controls": "physics.control",
 }
+_DERIVED = {"next.done": Feature("bool", (1,), ("done",))}
 
 
 def write_lerobot_recording(
@@ -80,7 +81,7 @@ def write_lerobot_recording(
         fps=CONTROL_RATE,
         robot=ROBOT,
         task=TASK,
-        features={**{name: _feature(name, fields) for name, fields in groups.items()}, **_DERIVED},
+        features={**{name: _feature(fields) for name, fields in groups.items()}, **_DERIVED},
         episodes=[_frames(episode, groups) for episode in recording],
         videos=videos,
     )
@@ -139,14 +140,11 @@ def _is_image(field: Field) -> bool:
     return field.dtype == np.uint8 and len(field.shape) == 3 and field.shape[-1] == 3
 
 
-def _feature(name: str, fields: Sequence[Field]) -> Feature:
+def _feature(fields: Sequence[Field]) -> Feature:
     if _is_image(fields[0]):
         return Feature(IMAGE, fields[0].shape, ("height", "width", "channels"))
     names = [column for field in fields for column in field.columns]
     return Feature(np.result_type(*(field.dtype for field in fields)).name, (len(names),), names)
-
-
-_DERIVED = {"next.done": Feature("bool", (1,), ("done",))}
 
 
 def _frames(episode: RecordedEpisode, groups: dict[str, list[Field]]) -> EpisodeFrames:
