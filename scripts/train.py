@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from signimit.command_line import run_program
 from signimit.output import whole_files
@@ -41,7 +41,7 @@ def main(
         out: Folder for the agent, ppo.zip.
         video: Film the trial episodes too.
     """
-    arguments = {"obs_type": obs_type, "control": control, "reward": reward, "objects": objects}
+    arguments: dict[str, Any] = {"obs_type": obs_type, "control": control, "reward": reward, "objects": objects}
     if obs_type != "state":
         arguments["size"] = (64, 64)
     plan = TrainingPlan(arguments=arguments, steps=steps, envs=envs, seed=seed)

@@ -224,7 +224,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
     @property
     def hand(self) -> NDArray[np.float64]:
         """Where the hand is, shape (2,), m, whatever is observed; a copy."""
-        return self._arm.hand.copy()
+        return np.array(self._arm.hand, dtype=np.float64)
 
     def close(self) -> None:
         """Free windows and OpenGL; may be called again."""

@@ -73,7 +73,13 @@ def train_ppo(plan: TrainingPlan, progress: bool = False) -> Any:
     envs = make_vec_env(plan.make_env, plan.envs, seed=plan.seed)
     try:
         rollout = _BATCH * max(1, min(_ROLLOUT, plan.steps // plan.envs) // _BATCH)
-        named = {"n_steps": rollout, "batch_size": _BATCH, "gamma": plan.discount, "seed": plan.seed, "device": "cpu"}
+        named: dict[str, Any] = {
+            "n_steps": rollout,
+            "batch_size": _BATCH,
+            "gamma": plan.discount,
+            "seed": plan.seed,
+            "device": "cpu",
+        }
         agent = PPO(_POLICIES[type(envs.observation_space)], envs, **named)
         agent.learn(plan.steps, progress_bar=progress)
     finally:

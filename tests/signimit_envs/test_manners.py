@@ -35,7 +35,7 @@ VARIANTS: list[dict[str, Any]] = [
     for control, reward in itertools.product(("hand", "joint"), ("sparse", "dense"))
     for more in ({"language": TALK}, {"objects": 6, "movements": ["circle", "zigzag"], "people_seed": 4})
 ]
-SMALL = {"size": (48, 64)}
+SMALL: dict[str, Any] = {"size": (48, 64)}
 
 
 def has_opengl() -> bool:
