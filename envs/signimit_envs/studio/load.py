@@ -10,6 +10,7 @@ from typing import NamedTuple
 from signimit_envs.studio.loopback import Json, Page, Watcher
 
 _REST = 0.4  # s, for the arm to come to rest
+_SETTLE = 2.0  # s, in which policies are made; people need longer to draw two signs
 _CADENCE = 0.05  # s, between two requests under load; the studio takes 40 a second
 
 
@@ -66,7 +67,7 @@ def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> 
             start = time.perf_counter()
             session = page.ask("POST", f"sessions/{session['id']}/demonstrations", body)
             update.append(time.perf_counter() - start)
-    time.sleep(2.0)  # people need longer to draw two signs; the policies are made meanwhile
+    time.sleep(_SETTLE)
     page.ask("POST", f"sessions/{session['id']}/table", {})
     with closing(Watcher(address)) as one:
         motion = [_first_motion(page, one, session, attempt) for attempt in range(answers)]
