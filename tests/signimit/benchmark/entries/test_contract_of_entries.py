@@ -31,7 +31,7 @@ def test_names_are_those_of_the_table() -> None:
 
 def test_the_same_session_gives_the_same_bytes(name: str, paper_session: BenchmarkSession, observed: Any) -> None:
     once, again = (
-        [obey(entry, command, 1.0).tobytes() for command in paper_session.commands[:3]]
+        [obey(entry, command, 0.5).tobytes() for command in paper_session.commands[:2]]
         for entry in (observed(name, paper_session) for _ in range(2))
     )
     assert once == again
@@ -39,7 +39,7 @@ def test_the_same_session_gives_the_same_bytes(name: str, paper_session: Benchma
 
 def test_velocities_are_finite_wherever_the_hand_is(name: str, paper_session: BenchmarkSession, observed: Any) -> None:
     entry = observed(name, paper_session)
-    for command in paper_session.commands:
+    for command in paper_session.commands[:3]:
         entry.begin(command.signs, command.objects)
         for hand in (command.objects[0], np.array([1.5, -2.0]), np.zeros(2)):
             velocity = np.asarray(entry.act(Observation(hand, np.zeros(2), 0.0)))

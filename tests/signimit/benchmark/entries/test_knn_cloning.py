@@ -1,5 +1,6 @@
 """Cloning by nearest neighbours."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -24,18 +25,18 @@ def test_the_velocity_is_the_weighted_mean_of_the_most_similar_moments(
 
 def _by_definition(session: BenchmarkSession, command: Any) -> NDArray[np.float64]:
     samples, moments = samples_of(session.demonstrations), []
+    asked = utterance_features(command.signs)
+    unlike = [np.linalg.norm(utterance_features(shown.signs) - asked) for shown in session.demonstrations]
     for demonstration, hand, velocity in zip(*samples, strict=True):
-        shown = session.demonstrations[int(demonstration)]
-        unlike = np.linalg.norm(utterance_features(shown.signs) - utterance_features(command.signs))
-        for there, here in zip(shown.objects, command.objects, strict=True):
-            away = np.linalg.norm((hand - there) - (command.hand - here)) / NEAR
-            moments.append((np.hypot(unlike, away), *velocity))
+        for there, here in zip(session.demonstrations[int(demonstration)].objects, command.objects, strict=True):
+            x, y = (hand - there) - (command.hand - here)
+            moments.append((math.hypot(unlike[demonstration], x / NEAR, y / NEAR), *velocity))
     nearest = np.array(sorted(moments)[:NEIGHBOURS])
     return np.asarray(np.average(nearest[:, 1:], axis=0, weights=nearest[:, 0] ** -2.0))
 
 
 def test_pairs_that_were_shown_are_obeyed_more_often_than_by_chance_and_no_other() -> None:
-    records = [run_task(Task(refer_to("clone-knn"), "paper", seed)) for seed in range(3)]
+    records = [run_task(Task(refer_to("clone-knn"), "paper", seed)) for seed in range(2)]
     unseen = [run_task(Task(refer_to("clone-knn"), "unseen-pair", 0))]
-    assert sum(sum(r["obeyed"]) for r in records) > 27 / 9  # chance asks one of nine
+    assert sum(sum(r["obeyed"]) for r in records) > 18 / 9  # chance asks one of nine
     assert sum(sum(r["obeyed"]) for r in unseen) == 0

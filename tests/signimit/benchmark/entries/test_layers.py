@@ -19,8 +19,8 @@ def test_between_layers_what_is_negative_is_cut_off() -> None:
 def test_it_is_what_scikit_learn_computes() -> None:
     networks = pytest.importorskip("sklearn.neural_network", reason="scikit-learn is not installed")
     rng = np.random.default_rng(0)
-    inputs = rng.normal(size=(300, 3))
-    network = networks.MLPRegressor(hidden_layer_sizes=(8, 8), max_iter=500, random_state=0, tol=1e-3)
+    inputs = rng.normal(size=(100, 3))
+    network = networks.MLPRegressor(hidden_layer_sizes=(8, 8), max_iter=300, random_state=0, tol=1e-2)
     network.fit(inputs, inputs[:, :2] ** 2)
     layers = list(zip(network.coefs_, network.intercepts_, strict=True))
     np.testing.assert_allclose(rectified_output(layers, inputs), network.predict(inputs), atol=1e-9)
