@@ -100,7 +100,8 @@ def _commands(split: Split, signs: Iterator[Path], arrays: Mapping[str, NDArray[
     made = []
     for request, objects, hand, family in zip(*(arrays[name][number] for name in names), strict=True):
         utterance = tuple(islice(signs, split.language.words))
-        made.append(Command(Request(*request.tolist()), utterance, objects * GRID, hand * GRID, int(family)))
+        places = _read_only(objects * GRID), _read_only(hand * GRID)
+        made.append(Command(Request(*request.tolist()), utterance, *places, int(family)))
     return made
 
 
@@ -143,4 +144,10 @@ def _unpack(arrays: Mapping[str, NDArray[Any]], name: str) -> Iterator[Path]:
     cuts = np.cumsum(samples - 1)[:-1]
     for start, changes in zip(first, np.split(arrays[f"{name}_changes"].T.astype(np.int64), cuts), strict=True):
         steps = np.concatenate([start[None], np.cumsum(changes, axis=0)])
-        yield np.cumsum(steps, axis=0) * GRID
+        yield _read_only(np.cumsum(steps, axis=0) * GRID)
+
+
+def _read_only(array: Path) -> Path:
+    """Keep entries from changing what others will see, for sessions are read once for all."""
+    array.setflags(write=False)
+    return array

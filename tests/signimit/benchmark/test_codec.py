@@ -43,6 +43,13 @@ def test_coding_again_changes_nothing(sessions: list[BenchmarkSession]) -> None:
     assert digest(encode_sessions(decode_sessions(sessions[0].split, arrays))) == digest(arrays)
 
 
+def test_nothing_that_an_entry_sees_can_be_written_to(sessions: list[BenchmarkSession]) -> None:
+    (session, _) = decode_sessions(sessions[0].split, encode_sessions(sessions))
+    seen = [*session.prototypes, *(a for c in session.commands for a in (*c.signs, c.objects, c.hand))]
+    seen += [a for d in session.demonstrations for a in (*d.signs, d.objects, d.hand, d.times)]
+    assert not any(array.flags.writeable for array in seen)
+
+
 def test_the_digest_knows_every_number_but_not_the_byte_order(sessions: list[BenchmarkSession]) -> None:
     arrays = encode_sessions(sessions)
     swapped = {name: a.astype(a.dtype.newbyteorder(">")) for name, a in arrays.items()}

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from signimit.benchmark.casts import another_style, same_people, strangers
-from signimit.benchmark.sessions import BenchmarkSession, compose_session, with_more_demonstrations
+from signimit.benchmark.sessions import BenchmarkSession, compose_session, entry_stream, with_more_demonstrations
 from signimit.benchmark.splits import SPLITS, choose_splits
 from signimit.exceptions import UnknownNameError
 from signimit.languages import PAPER_LANGUAGE
@@ -147,6 +147,12 @@ def test_more_demonstrations_are_by_the_same_people_and_show_no_pair_that_is_hel
     assert len(set(signs)) == len(signs)
     assert not set(signs) & {s.tobytes() for c in paper.commands for s in c.signs}
     assert with_more_demonstrations(paper, 12).demonstrations is paper.demonstrations
+
+
+def test_the_generator_of_an_entry_is_the_same_each_time_and_does_not_tell_the_seed(paper: BenchmarkSession) -> None:
+    first, again = entry_stream(paper), entry_stream(paper)
+    assert first.random() == again.random() != entry_stream(composed("few")).random()
+    assert first.bit_generator.seed_seq.entropy > 2**200  # type: ignore[attr-defined]
 
 
 def test_an_unknown_split_is_answered_with_the_known_ones() -> None:
