@@ -101,12 +101,12 @@ class Visitor:
         points = [(box["x"] + box["width"] * x, box["y"] + box["height"] * y) for x, y in places]
         begun = max(self.clock, time.time())
         for (x, y), at in zip(points, times - times[0], strict=True):
-            self._input("Move" if at else "Start", x, y, begun + at)
+            self.event("Move" if at else "Start", x, y, begun + at)
         self.clock = begun + times[-1] - times[0] + 0.1
         if lift:
-            self._input("End", *points[-1], self.clock)
+            self.event("End", *points[-1], self.clock)
 
-    def _input(self, what: str, x: float, y: float, at: float) -> None:
+    def event(self, what: str, x: float, y: float, at: float) -> None:
         if self.touch:
             touching = [] if what in ("End", "Cancel") else [{"x": x, "y": y, "id": FINGER}]
             event = {"type": f"touch{what}", "touchPoints": touching, "timestamp": at}

@@ -1,0 +1,188 @@
+"""The page of the studio: reloads, two tabs, phones, keyboards, and what is not a stroke."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
+Visit, NewSession, NewActor = Callable[..., Any], Callable[..., str], Callable[[int], Any]
+PHONE = {"width": 390, "height": 844}
+VIEWS = ("teach", "ask", "look", "keep")
+
+
+def drawn(visitor: Any, number: int) -> Any:
+    return visitor.page.locator(f"#teach-pads figure:nth-child({number}) canvas[aria-label$=drawn]")
+
+
+def test_a_reload_in_the_middle_of_a_demonstration_loses_nothing(
+    visit: Visit, new_session: NewSession, actor: NewActor
+) -> None:
+    visitor, person = visit(), actor(1)
+    visitor.open("teach", new_session(visitor, 1))
+    session = visitor.session()
+    person.speak(visitor, "teach", session["next"]["prompt"])
+    visitor.page.reload()
+    expect(drawn(visitor, 1)).to_be_visible()
+    expect(drawn(visitor, 2)).to_be_visible()
+    visitor.hand(person.path(session))
+    visitor.page.locator("#teach-it").click()
+    visitor.see("#teach-count", "Demonstration 2")
+    signs = visitor.api(f"sessions/{session['id']}/demonstrations/1")["signs"]
+    assert [len(sign["points"]) for sign in signs] == [14, 14]
+
+
+def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(
+    visit: Visit, new_session: NewSession, actor: NewActor
+) -> None:
+    visitor, person = visit(), actor(2)
+    visitor.open("teach", new_session(visitor, 3))
+    for control, left in (("#undo", 2), ("#redo", 3)):
+        visitor.page.locator(control).click()
+        visitor.see("#session-facts", f"{left} demonstrations")
+    visitor.page.get_by_role("button", name="Delete demonstration 2").click()
+    visitor.see("#session-facts", "2 demonstrations")
+    visitor.page.keyboard.press("Control+z")
+    visitor.see("#session-facts", "3 demonstrations")
+
+    before = visitor.api(f"sessions/{visitor.session()['id']}/demonstrations/1")
+    visitor.page.get_by_role("button", name="Demonstration 1.").click()
+    visitor.page.get_by_role("button", name="Redraw demonstration 1").click()
+    visitor.see("#teach-count", "Redraw demonstration 1")
+    visitor.sign("teach", 1, person.signer.draw("1", person.rng).points)
+    visitor.page.get_by_role("button", name="Save demonstration 1").click()
+    visitor.see("#teach-count", "Demonstration 3")
+    after = visitor.api(f"sessions/{visitor.session()['id']}/demonstrations/1")
+    assert after["hand"]["points"] == before["hand"]["points"]
+    assert len(after["signs"][0]["points"]) == 14 != len(before["signs"][0]["points"])
+
+
+def test_taps_far_starts_and_cancelled_fingers_draw_nothing(visit: Visit, new_session: NewSession) -> None:
+    visitor = visit(touch=True, viewport=PHONE)
+    visitor.open("teach", new_session(visitor))
+    pad, line = "#teach-pads figure:nth-child(1) canvas", np.linspace(0.3, 0.7, 8)[:, None] * [1, 1]
+    visitor.draw(pad, line[:1], np.zeros(1))
+    visitor.draw(pad, line, np.linspace(0, 0.4, 8), lift=False)
+    visitor.event("Cancel", 0, 0, visitor.clock)
+    visitor.draw("#teach-stage .sheet", np.full((4, 2), 0.02) + line[:4] * 0.1, np.linspace(0, 0.2, 4))
+    visitor.see("#teach-hint strong", "Begin at the hand")
+    expect(drawn(visitor, 1)).to_have_count(0)
+    visitor.draw(pad, line, np.linspace(0, 0.4, 8))
+    expect(drawn(visitor, 1)).to_be_visible()
+    expect(visitor.page.locator("#teach-it")).to_be_disabled()
+
+
+def test_a_finger_draws_a_demonstration_on_a_phone_and_nothing_is_cut_off(
+    visit: Visit, new_session: NewSession, actor: NewActor
+) -> None:
+    visitor, person = visit(touch=True, viewport=PHONE), actor(3)
+    visitor.open("teach", new_session(visitor, 2))
+    person.demonstrate(visitor, visitor.session())
+    visitor.see("#belief", "What the robot believes")
+    for view in VIEWS:
+        visitor.page.locator(f"#tab-{view}").tap()
+        expect(visitor.page.locator(f"#{view}")).to_be_visible()
+        assert visitor.page.evaluate("document.documentElement.scrollWidth") == PHONE["width"], view
+
+
+def test_two_tabs_do_not_corrupt_one_session(visit: Visit, new_session: NewSession, actor: NewActor) -> None:
+    first, second, person = visit(), visit(), actor(4)
+    name = new_session(first, 1)
+    first.open("teach", name)
+    second.open("teach", name)
+    person.speak(second, "teach", second.session()["next"]["prompt"])
+    second.hand(person.path(second.session()))
+    second.page.route(re.compile(rf"/api/sessions/{name}$"), lambda route: route.abort())  # news does not reach it
+    person.demonstrate(first, first.session())
+    second.page.locator("#alert").wait_for()
+    second.page.unroute_all()
+    second.page.locator("#teach-it").click()
+    second.see("#alert", "Somebody changed this session meanwhile.")
+    second.see("#teach-count", "Demonstration 2")
+    expect(second.page.locator("#teach-it")).to_be_disabled()
+    assert len(second.session()["demonstrations"]) == 2
+    person.demonstrate(second, second.session())
+    first.see("#teach-count", "Demonstration 3")
+    assert any("409" in problem for problem in second.problems)
+    second.problems.clear()  # the browser reports each refused request
+
+
+def test_everything_is_reached_with_the_keyboard_and_built_in_people_play(visit: Visit, new_session: NewSession) -> None:
+    visitor = visit()
+    name = new_session(visitor, 10)
+    visitor.open("teach", name)
+    keyboard = visitor.page.keyboard
+    visitor.page.locator("#tab-teach").focus()
+    keyboard.press("ArrowLeft")
+    expect(visitor.page.locator("#tab-keep")).to_be_focused()
+    keyboard.press("Home")
+    press_tab_until(visitor, "SUMMARY")
+    keyboard.press("Enter")
+    for _ in range(2):  # who signs, and who moves: somebody built in
+        press_tab_until(visitor, "SELECT")
+        keyboard.press("a")
+    visitor.see("#teach-count", "Demonstration 12 · all were shown")
+    visitor.page.locator("#tab-teach").focus()
+    keyboard.press("ArrowRight")
+    visitor.page.locator(".handle").nth(2).wait_for()
+    press_tab_until(visitor, "BUTTON.handle")
+    before = visitor.page.evaluate("document.activeElement.style.left")
+    keyboard.press("ArrowRight")
+    visitor.page.wait_for_function("(before) => document.activeElement.style.left !== before", arg=before)
+    press_tab_until(visitor, "BUTTON#ask-for-it")
+    keyboard.press("Enter")
+    visitor.see("#ask-sentence", "about the red object")
+    assert visitor.session()["answers"][0]["request"] == {"movement": 0, "focus": 0}
+
+
+def press_tab_until(visitor: Any, wanted: str) -> None:
+    for _ in range(60):
+        visitor.page.keyboard.press("Tab")
+        if visitor.page.evaluate("(wanted) => document.activeElement.matches(wanted)", wanted.lower()):
+            return
+    raise AssertionError(f"{wanted} is not reached with the Tab key")
+
+
+def test_a_session_is_looked_at_exported_imported_and_merged(visit: Visit, new_session: NewSession, tmp_path: Any) -> None:
+    visitor = visit()
+    visitor.open("look", new_session(visitor, 4))
+    page = visitor.page
+    visitor.see("#matrix-told", "Point at a cell")
+    page.locator(".matrix").focus()
+    page.keyboard.press("ArrowRight")
+    visitor.see("#matrix-told", "with itself")
+    page.locator(".matrix").hover(position={"x": 200, "y": 10})
+    visitor.see("#matrix-told", "/ rad²")
+    page.locator("#look-figures details[open] img").wait_for()
+    page.locator("#replay-choice").select_option("demonstrations/3")
+    visitor.see("#replay-sentence", "Understood: movement")
+
+    page.locator("#tab-keep").click()
+    with page.expect_download() as download:
+        page.get_by_role("link", name="Demonstration set").click()
+    file = tmp_path / "demonstrations.npz"
+    download.value.save_as(file)
+    page.locator("#import-file").setevent_files(file)
+    page.locator("#import-it").click()
+    visitor.see("#session-title", "demonstrations.npz")
+    visitor.see("#session-facts", "4 demonstrations")
+    page.locator("#tab-keep").click()
+    page.get_by_role("button", name="Merge A test into").first.click()
+    page.wait_for_function("document.querySelector('#session-facts').textContent !== '4 demonstrations'")
+    assert len(visitor.session()["demonstrations"]) >= 5
+
+
+def test_a_dropped_connection_comes_back(visit: Visit, new_session: NewSession) -> None:
+    visitor = visit()
+    servers: list[Any] = []
+    visitor.page.route_web_socket(re.compile(r"/ws$"), lambda socket: servers.append(socket.connect_to_server()))
+    visitor.open("ask", new_session(visitor, 2))
+    visitor.page.locator(".handle").nth(2).wait_for()
+    visitor.page.evaluate("document.querySelectorAll('.handle').forEach((one) => { one.style.left = '' })")
+    servers[0].close()
+    visitor.page.wait_for_function("document.querySelector('.handle').style.left !== ''")
+    expect(visitor.page.locator("#connection")).to_be_empty()
