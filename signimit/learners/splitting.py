@@ -19,8 +19,10 @@ _LEAST = 2  # members of each half; a single odd demonstration is no movement
 _WORD = 0.35  # weight of the words' contrast against the drawings'
 _MOST_WORD = 0.6  # that counts of it: many write one sign in two ways
 _EVEN_ODDS = 0.6  # contrast at which one movement and two are equally likely
-_SLOPE = 10.0  # nats for each unit of contrast
-_MOST = 5.0  # nats that a contrast may be worth; more would be sure of what was never measured
+_SLOPE = 5.0  # nats for each unit of contrast and member of the smaller half: of many it is less likely by chance
+_PRICE = 0.5  # of the objective's prices, which are made for sums over pairs as if these were independent
+_MOST_FOR_BALANCE = 1.0  # nats that more equal sizes may speak for a split; they alone are no reason
+_MOST = 10.0  # nats that a contrast may be worth; more would be sure of what was never measured
 
 
 def take_apart(
@@ -55,11 +57,13 @@ def _best_split(
         return -np.inf, members
     drawn, said = (logs[np.ix_(members, members)] for logs in (drawings, words))
     second = _halves(drawn / DRAWINGS.equal_spread + said / SIGNS.equal_spread)
-    if min(second.sum(), (~second).sum()) < _LEAST:
+    smaller = min(int(second.sum()), int((~second).sum()))
+    if smaller < _LEAST:
         return -np.inf, members
     contrast = _contrast(drawn, second) + _WORD * min(_contrast(said, second), _MOST_WORD)
-    evidence = min(_SLOPE * (contrast - _EVEN_ODDS), _MOST)
-    return evidence - max(_price_of_split(labels, members[second]), 0.0), members[second]
+    evidence = min(_SLOPE * smaller * (contrast - _EVEN_ODDS), _MOST)
+    price = _PRICE * _price_of_split(labels, members[second])
+    return evidence - max(price, -_MOST_FOR_BALANCE), members[second]
 
 
 def _halves(distances: NDArray[np.float64]) -> NDArray[np.bool_]:
