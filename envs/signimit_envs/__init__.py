@@ -11,6 +11,7 @@ from signimit_envs.reproduction import reproduce as reproduce
 from signimit_envs.scene import CONTROL_RATE as CONTROL_RATE
 from signimit_envs.tabletop import TabletopEnv as TabletopEnv
 from signimit_envs.tabletop_hand import TabletopHandEnv as TabletopHandEnv
+from signimit_envs.video_recorder import RecordMp4 as RecordMp4
 
 EPISODE_SECONDS = 12
 ENV_IDS = ("signimit/Tabletop-v0", "signimit/TabletopHand-v0")

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from signimit import UnknownNameError
+from signimit import InvalidInputError, UnknownNameError
 from signimit_envs.hand_control import HandController, JointCommand
 from signimit_envs.scene import CONTROL_RATE, MAX_JOINT_SPEED
 
@@ -71,3 +71,27 @@ def make_control(name: str, controller: HandController) -> Control:
     if name not in CONTROLS:
         raise UnknownNameError("control", name, CONTROLS)
     return CONTROLS[name](controller)
+
+
+def checked_action(action: ArrayLike, size: int) -> NDArray[np.float64]:
+    """Return an action as an array of shape (size,), what is beyond -1 and 1 clipped.
+
+    Raises:
+        InvalidInputError: If it has another shape or is not finite.
+    """
+    try:
+        values = np.asarray(action, dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.shape != (size,):
+        raise InvalidInputError("action", f"{size} numbers in [-1, 1]", repr(action))
+    for value in values.tolist():  # no comparison holds for NaN; for so few numbers a loop is the fastest
+        if not -1.0 <= value <= 1.0:
+            return _clipped(values)
+    return values
+
+
+def _clipped(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    if not np.isfinite(values).all():
+        raise InvalidInputError("action", f"{len(values)} finite numbers in [-1, 1]", repr(values))
+    return values.clip(-1.0, 1.0)

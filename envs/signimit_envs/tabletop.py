@@ -13,7 +13,7 @@ from signimit import InvalidInputError, UnknownNameError
 from signimit.languages import Language
 from signimit_envs.arm import Arm
 from signimit_envs.casting import Source
-from signimit_envs.control import MAX_HAND_SPEED, make_control
+from signimit_envs.control import MAX_HAND_SPEED, checked_action, make_control
 from signimit_envs.hand_control import HandController
 from signimit_envs.judging import Judge
 from signimit_envs.lexicons import choose_language, choose_person
@@ -199,7 +199,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
             InvalidInputError: If the action has another shape or is not finite.
         """
         arm = self._arm
-        command = self._control.command(self._checked(action), self.data.qpos)
+        command = self._control.command(checked_action(action, self._control.size), self.data.qpos)
         error = arm.track(command.velocities)
         fulfilled = not error and self._judge.watch(arm.hand)
         reward = self._reward.of_step(arm.hand, fulfilled, bool(error))
@@ -232,24 +232,6 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         self._observer.close()
         if self._window is not None:
             self._window.close()
-
-    def _checked(self, action: ArrayLike) -> NDArray[np.float64]:
-        size = self._control.size
-        try:
-            values = np.asarray(action, dtype=np.float64)
-        except (TypeError, ValueError):
-            values = np.empty(0)
-        if values.shape != (size,):
-            raise InvalidInputError("action", f"{size} numbers in [-1, 1]", repr(action))
-        for value in values.tolist():  # no comparison holds for NaN; for so few numbers a loop is the fastest
-            if not -1.0 <= value <= 1.0:
-                return self._clipped(values)
-        return values
-
-    def _clipped(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        if not np.isfinite(values).all():
-            raise InvalidInputError("action", f"{self._control.size} finite numbers in [-1, 1]", repr(values))
-        return values.clip(-1.0, 1.0)
 
     def _info(self, residual: float, error: str) -> dict[str, Any]:
         return {
