@@ -94,7 +94,7 @@ def test_a_stroke_that_is_not_finite_is_refused(shown: Callable[[], Shown]) -> N
         event_from_json(value)
 
 
-@settings(deadline=None)
+@settings(deadline=None, max_examples=30)
 @given(st.dictionaries(st.sampled_from(["event", "number", "shown", "signs", "good", "title"]), ANYTHING))
 def test_whatever_a_file_says_it_is_an_event_or_refused_in_a_sentence(value: dict[str, Any]) -> None:
     try:

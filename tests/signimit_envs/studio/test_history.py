@@ -86,7 +86,7 @@ def test_a_session_begins_once() -> None:
             retell(events)
 
 
-@settings(deadline=None)
+@settings(deadline=None, max_examples=30)
 @given(st.lists(st.sampled_from(["add", "delete", "undo", "redo"]), max_size=25))
 def test_undo_is_what_a_list_of_snapshots_would_give(deeds: list[str]) -> None:
     """A slow oracle: all states in a list, and where we are in it."""

@@ -162,7 +162,7 @@ ANYTHING = st.recursive(
 KEYS = st.sampled_from(["type", "on", "object", "to", "velocity", "more"])
 
 
-@settings(deadline=None)
+@settings(deadline=None, max_examples=30)
 @given(st.dictionaries(KEYS, ANYTHING) | ANYTHING)
 def test_whatever_a_page_says_it_is_a_message_or_refused_in_a_sentence(value: Any) -> None:
     try:
@@ -174,7 +174,7 @@ def test_whatever_a_page_says_it_is_a_message_or_refused_in_a_sentence(value: An
     assert np.isfinite(numbers).all()
 
 
-@settings(deadline=None)
+@settings(deadline=None, max_examples=30)
 @given(st.binary(max_size=60))
 def test_whatever_the_text_it_is_a_message_or_refused_in_a_sentence(content: bytes) -> None:
     with pytest.raises(InvalidInputError):
