@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.entries.deep_network import SignConditionedNetwork, reproducible_torch, sign_channels
-from signimit.benchmark.entries.layers import rectified_output
+from signimit.benchmark.entries.layers import perceptron_output, sigmoid_weighted
 from signimit.benchmark.entries.samples import samples_of
 from signimit.benchmark.protocol import Kit, Observation
 from signimit.demonstrations import DemonstrationSet
@@ -20,8 +20,8 @@ try:
 except ImportError:
     raise MissingDependencyError("torch", "deep", "A deep entry") from None
 
-STEPS = 2500
-UTTERANCES, MOMENTS = 32, 256  # of a batch
+STEPS = 2000
+UTTERANCES, MOMENTS = 32, 256  # of a batch, about
 LEARNING_RATE, WEIGHT_DECAY = 2e-3, 1e-4
 ASTRAY = 0.06  # m, the most that the standard deviation of a hand's disturbance is
 PULL = 2.0  # 1/s, how fast a hand that is astray goes back
@@ -73,7 +73,7 @@ class DeepCloning:
 
     def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:
         """Encode the signs; what depends on the hand is left to `act`."""
-        with torch.inference_mode():
+        with reproducible_torch(0), torch.inference_mode():
             code = self._network.encode(torch.from_numpy(sign_channels(signs))[None])
             weights = self._network.weigh(code)
         self._code = code[0].numpy().astype(np.float64)
@@ -85,7 +85,8 @@ class DeepCloning:
         places = (observation.hand - self._objects) / NEAR
         seen = places.ravel() if self._weights is None else self._weights @ places
         time = min(observation.seconds / OPENING, 1.0)
-        return SPEED * rectified_output(self._layers, np.concatenate([self._code, seen, [time]]))
+        inputs = np.concatenate([self._code, seen, [time]])
+        return SPEED * perceptron_output(self._layers, inputs, sigmoid_weighted)
 
 
 def _lesson(demonstrations: DemonstrationSet) -> Lesson:
@@ -120,13 +121,13 @@ def _batch_loss(network: SignConditionedNetwork, lesson: Lesson) -> Tensor:
     Signs are blurred a little. Hands are put astray and shall go back, so that errors do not grow (Laskey et al., DART,
     CoRL 2017).
     """
-    shown = torch.randint(len(lesson.signs), (UTTERANCES,))
+    shown = torch.randperm(len(lesson.signs))[:UTTERANCES]
+    count, each = len(shown), -(-MOMENTS // len(shown))
     signs = lesson.signs[shown]
-    each = MOMENTS // UTTERANCES
     code = network.encode(signs + SIGN_NOISE * torch.randn_like(signs)).repeat_interleave(each, dim=0)
-    within = torch.rand(UTTERANCES, each) * lesson.length[shown, None]
+    within = torch.rand(count, each) * lesson.length[shown, None]
     moment = (lesson.first[shown, None] + within.long()).flatten()
-    astray = torch.randn(MOMENTS, 2) * torch.rand(MOMENTS, 1) * ASTRAY
+    astray = torch.randn(len(moment), 2) * torch.rand(len(moment), 1) * ASTRAY
     velocity = lesson.velocity[moment] - (PULL / SPEED) * astray
     given = network(code, lesson.places[moment] + astray[:, None] / NEAR, lesson.time[moment])
     return torch.nn.functional.mse_loss(given, velocity)

@@ -45,9 +45,9 @@ class SignConditionedNetwork(nn.Module):  # type: ignore[misc, unused-ignore]
         self.attention = nn.Linear(words * CODE, objects) if attention else None
         self.head = nn.Sequential(
             nn.Linear(words * CODE + (2 if attention else 2 * objects) + 1, HIDDEN),
-            nn.ReLU(),
+            nn.SiLU(),
             nn.Linear(HIDDEN, HIDDEN),
-            nn.ReLU(),
+            nn.SiLU(),
             nn.Linear(HIDDEN, 2),
         )
 
@@ -93,6 +93,7 @@ def sign_channels(signs: Sequence[ArrayLike]) -> NDArray[np.float32]:
 def reproducible_torch(seed: int) -> Iterator[None]:
     """Let PyTorch compute the same bytes every time on this machine, and leave its settings as they were."""
     threads, strict = torch.get_num_threads(), torch.are_deterministic_algorithms_enabled()
+    lenient = torch.is_deterministic_algorithms_warn_only_enabled()
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         torch.set_num_threads(1)
@@ -101,4 +102,4 @@ def reproducible_torch(seed: int) -> Iterator[None]:
             yield
         finally:
             torch.set_num_threads(threads)
-            torch.use_deterministic_algorithms(strict)
+            torch.use_deterministic_algorithms(strict, warn_only=lenient)

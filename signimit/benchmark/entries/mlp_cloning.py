@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.benchmark.entries.layers import rectified_output
+from signimit.benchmark.entries.layers import perceptron_output, rectified
 from signimit.benchmark.entries.samples import Samples, samples_of, utterance_features
 from signimit.benchmark.protocol import Kit, Observation
 from signimit.demonstrations import DemonstrationSet
@@ -78,7 +78,7 @@ class PerceptronCloning:
     def act(self, observation: Observation) -> ArrayLike:
         """Ask the network."""
         inputs = _inputs(self._code, observation.hand[None], self._objects)[0]
-        return SPEED * rectified_output(self._layers, (inputs - self._mean) / self._scale)
+        return SPEED * perceptron_output(self._layers, (inputs - self._mean) / self._scale, rectified)
 
 
 def _inputs(code: NDArray[np.float64], hand: NDArray[np.float64], objects: NDArray[np.float64]) -> NDArray[np.float64]:
