@@ -44,6 +44,7 @@ def _checked_velocity(given: Any, step: int) -> NDArray[np.float64]:
         velocity = np.array(given, dtype=np.float64)
     except (TypeError, ValueError):
         velocity = np.empty(0)
-    if velocity.shape != (2,) or not (math.isfinite(velocity[0]) and math.isfinite(velocity[1])):
+    x, y = velocity.tolist() if velocity.shape == (2,) else (math.nan, math.nan)
+    if not (math.isfinite(x) and math.isfinite(y)):
         raise InvalidInputError(f"act at step {step}", "a finite velocity of shape (2,), m/s", f"{given!r:.60}")
-    return velocity / max(1.0, float(np.abs(velocity).max()) / FASTEST)
+    return velocity / max(1.0, abs(x) / FASTEST, abs(y) / FASTEST)
