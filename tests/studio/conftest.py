@@ -33,7 +33,7 @@ ARGUMENTS = (
     *(["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []),
 )
 PATIENCE = 30_000  # ms, on a busy machine
-SIGN_POINTS, MOVEMENT_POINTS = 14, 48
+SIGN_POINTS, MOVEMENT_POINTS = 12, 36
 FINGER = 7  # its number, on the touch screen
 
 
@@ -125,6 +125,7 @@ class Visitor:
 
     def hand(self, path: Array, period: float = 0.02) -> None:
         """Draw a movement on the table of Teach, m, samples so many seconds apart."""
+        self.page.locator("#teach-stage .stage:not(.waiting)").wait_for()
         kept = np.linspace(0, len(path) - 1, min(len(path), MOVEMENT_POINTS)).astype(int)
         self.draw("#teach-stage .sheet", shares(self.api("studio")["picture"], path[kept]), period * kept)
 

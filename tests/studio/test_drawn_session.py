@@ -33,7 +33,7 @@ def test_twelve_drawn_demonstrations_are_understood_and_an_unseen_request_is_obe
     visitor.page.locator(".handle").nth(2).wait_for()
     person.speak(visitor, "ask", {"movement": CIRCLE, "focus": BLUE})
     visitor.see("#ask-sentence", "about the blue object")
-    answer = wait_for_path(visitor, name, 6 * SECOND)
+    answer = wait_for_path(visitor, name, 5 * SECOND)
     assert_circles_blue(answer["path"], answer["objects"][-1][1], person)
 
     visitor.page.get_by_role("button", name="Right").click()
@@ -41,10 +41,10 @@ def test_twelve_drawn_demonstrations_are_understood_and_an_unseen_request_is_obe
     assert visitor.session()["answers"][0]["verdict"] is True
 
     meddle(visitor, answer, in_picture)
-    after = wait_for_path(visitor, name, len(answer["path"]) + 6 * SECOND)
+    after = wait_for_path(visitor, name, len(answer["path"]) + 5 * SECOND)
     moved = np.array(after["objects"][-1][1])
     assert np.linalg.norm(moved[BLUE] - answer["objects"][-1][1][BLUE]) > 0.04
-    assert_circles_blue(after["path"][-5 * SECOND :], moved, person)
+    assert_circles_blue(after["path"][-4 * SECOND :], moved, person)
 
 
 def teach_all(visitor: Any, person: Any) -> list[Any]:

@@ -59,14 +59,14 @@ export class AskTable {
   paint(pen) {
     const { header, held } = this;
     if (!header) return;
-    if (!store.studio.can_draw) drawObjects(pen, header.objects);
+    if (!this.stage.photographed) drawObjects(pen, header.objects);
     drawLetters(pen, header.objects);
     if (header.focus !== null) {
       const answer = store.session?.answers[header.answer];
       drawRing(pen, header.objects[header.focus], answer?.confidence ?? 1);
     }
     drawPath(pen, header.trail, "hand", "#6b2185");
-    if (!store.studio.can_draw) drawHand(pen, header.hand, "hand");
+    if (!this.stage.photographed) drawHand(pen, header.hand, "hand");
     if (held?.shove && held.to) drawArrow(pen, header.hand, held.to);
   }
 

@@ -118,7 +118,7 @@ export class Replay {
     if (!this.what || !this.count) return;
     const { what, count } = this;
     const objects = what.objectsAt(what.times[count - 1]);
-    if (!what.picture) drawObjects(pen, objects);
+    if (!this.stage.photographed) drawObjects(pen, objects);
     drawLetters(pen, objects);
     if (what.focus !== null) drawRing(pen, objects[what.focus], what.sure);
     const passed = what.path.slice(0, count);

@@ -16,6 +16,7 @@ export class Stage {
     this.element = make("div", { className: "stage" }, this.picture, this.sheet);
     host.append(this.element);
     this.scene = () => {};
+    this.photographed = false; // or only a plan
     new ResizeObserver(() => this.paint()).observe(this.sheet);
   }
 
@@ -24,12 +25,22 @@ export class Stage {
     this.newest = jpeg;
     const image = jpeg?.size ? await createImageBitmap(jpeg) : null;
     if (this.newest !== jpeg) return image?.close();
+    this.photographed = image !== null;
     const pen = this.picture.getContext("2d");
     if (image) pen.drawImage(image, 0, 0, 640, 480);
     else this.plan(pen);
     image?.close();
-    this.element.classList.remove("waiting");
+    this.waiting = false;
     return undefined;
+  }
+
+  /** Whether the picture is still to come; nothing is shown until then. */
+  get waiting() {
+    return this.element.classList.contains("waiting");
+  }
+
+  set waiting(still) {
+    this.element.classList.toggle("waiting", still);
   }
 
   /** Draw the bare table. */

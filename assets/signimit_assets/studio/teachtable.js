@@ -39,12 +39,14 @@ export class TeachTable {
     this.stage.draw((pen) => this.paint(pen));
     if (this.picture === picture) return;
     this.picture = picture;
-    this.stage.element.classList.add("waiting");
+    this.stage.waiting = true;
     try {
       const jpeg = store.studio.can_draw ? await blob(picture) : null;
       if (this.picture === picture) await this.stage.show(jpeg);
     } catch (problem) {
+      if (this.picture !== picture) return;
       this.picture = null;
+      await this.stage.show(null);
       complain(problem);
     }
     this.stage.paint();
@@ -52,7 +54,7 @@ export class TeachTable {
 
   paint(pen) {
     if (!this.scene) return;
-    if (!store.studio.can_draw) drawObjects(pen, this.scene.objects);
+    if (!this.stage.photographed) drawObjects(pen, this.scene.objects);
     drawLetters(pen, this.scene.objects);
     const made = this.drawing ?? this.hand;
     if (made) drawPath(pen, made.points);
@@ -60,7 +62,7 @@ export class TeachTable {
   }
 
   begin(at) {
-    if (!this.scene) return false;
+    if (!this.scene || this.stage.waiting) return false;
     const near = Math.max(NEAR, FINGER * this.stage.pixel);
     if (distance(this.stage.metres(at), this.scene.hand) > near) {
       this.hint(HINT, true);

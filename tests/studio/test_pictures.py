@@ -1,0 +1,82 @@
+"""Every view in light, in dark and on a phone: nothing sticks out, and everything can be read.
+
+With the folder in SIGNIMIT_PICTURES, e.g. ``SIGNIMIT_PICTURES=docs/images``, the pictures are kept there as
+``studio-VIEW-LOOK.png``.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+LOOKS: dict[str, dict[str, Any]] = {
+    "light": {"color_scheme": "light", "viewport": {"width": 1280, "height": 860}},
+    "dark": {"color_scheme": "dark", "viewport": {"width": 1280, "height": 860}},
+    "phone": {"color_scheme": "light", "viewport": {"width": 390, "height": 844}, "touch": True},
+}
+READY = {
+    "teach": ".thumb .scene",
+    "ask": ".verdict",
+    "look": "#look-figures details[open] img",
+    "keep": ".sessions .here",
+}
+PAIRS = (("ink", "card"), ("ink", "page"), ("quiet", "card"), ("quiet", "page"), ("accent", "card"), ("accent", "soft"))
+MORE_PAIRS = (("on-accent", "accent"), ("bad", "bad-soft"), ("pad-ink", "pad"))
+AA = 4.5  # WCAG 2.2, contrast of text
+COLOURS = 96  # of a picture that is kept
+
+
+@pytest.mark.parametrize("look", LOOKS)
+def test_every_view_fits_its_window_and_can_be_read(look: str, visit: Any, new_session: Callable[..., str]) -> None:
+    visitor = visit(**LOOKS[look])
+    visitor.open("teach", new_session(visitor, 12 if look == "light" else 5))
+    for one, other in (*PAIRS, *MORE_PAIRS):
+        assert contrast(*(channels(visitor, name) for name in (one, other))) >= AA, (look, one, other)
+    for view, ready in READY.items():
+        visitor.page.locator(f"#tab-{view}").click()
+        if view == "ask":
+            visitor.page.locator("#ask-for-it").click()
+        visitor.page.locator(ready).first.wait_for()
+        assert visitor.page.evaluate("() => document.documentElement.scrollWidth - innerWidth") == 0, view
+        keep(visitor.page, f"studio-{view}-{look}.png")
+
+
+def channels(visitor: Any, name: str) -> list[int]:
+    """Return a colour of the style sheet, red, green, blue."""
+    told = visitor.page.evaluate(
+        """(name) => {
+          const probe = document.body.appendChild(document.createElement("i"));
+          probe.style.color = `var(--${name})`;
+          const { color } = getComputedStyle(probe);
+          probe.remove();
+          return color;
+        }""",
+        name,
+    )
+    return [int(part) for part in told.removeprefix("rgb(").removesuffix(")").split(",")]
+
+
+def contrast(one: list[int], other: list[int]) -> float:
+    """Return the contrast ratio of two colours (WCAG 2.2)."""
+    shares = np.array([one, other]) / 255
+    linear = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
+    dark, light = sorted(linear @ [0.2126, 0.7152, 0.0722])
+    return float((light + 0.05) / (dark + 0.05))
+
+
+def keep(page: Any, name: str) -> None:
+    """Keep a picture of the window, if somebody wants it."""
+    folder = os.environ.get("SIGNIMIT_PICTURES")
+    if not folder:
+        return
+    if "ask" in name:
+        page.wait_for_timeout(6000)  # for the arm to have drawn something
+    picture = Image.open(io.BytesIO(page.screenshot()))
+    picture.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(Path(folder) / name, optimize=True)
