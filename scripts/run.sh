@@ -100,7 +100,12 @@ offer_browser() {
 
 # What a program needs beside the core.
 purpose_of() {
-    case $1 in test | studio) printf '%s' "$1" ;; study | benchmark) printf 'study' ;; *) printf 'run' ;; esac
+    case $1 in
+        test | studio) printf '%s' "$1" ;;
+        study | benchmark) printf 'study' ;;
+        convert | replay) printf 'formats' ;;
+        *) printf 'run' ;;
+    esac
 }
 
 extras_for() {
@@ -108,6 +113,7 @@ extras_for() {
         run) printf 'scripts,strokes' ;;
         study) printf 'scripts,strokes,study,dask' ;;
         studio) printf 'studio' ;;
+        formats) printf 'scripts,strokes,minari,lerobot' ;;
         test) printf 'scripts,strokes,study,studio,minari,lerobot,dask,test' ;;
     esac
 }
@@ -139,7 +145,7 @@ set_up() {
     purposes="run $1"
     if [ "$1" = test ]; then
         offer_browser
-        purposes="run study studio test"
+        purposes="run study studio formats test"
     fi
     for purpose in $purposes; do printf '%s\n' "$wanted" >"$venv/.ready-for-$purpose"; done
 }
