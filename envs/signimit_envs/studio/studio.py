@@ -147,7 +147,9 @@ class Studio:
 
     def changed(self, session: OpenSession) -> None:
         """Tell all pages that a session is not what it was."""
-        self.viewers.tell({"type": "changed", "session": session.name, "revision": session.history.revision})
+        history = session.history
+        news = {"type": "changed", "session": session.name, "revision": history.revision, "events": history.events}
+        self.viewers.tell(news)
 
     def _record(self, part: TrackPart) -> None:
         """Write a second of an answer to the disk, in a thread that may wait for it."""

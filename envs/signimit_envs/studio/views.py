@@ -26,6 +26,7 @@ def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
         "title": history.title,
         "created": created.created,
         "revision": history.revision,
+        "events": history.events,
         "language": None if language is None else _language_json(created.language, language),
         "objects": created.objects,
         "demonstrations": [_listed_json(session, number, shown) for number, shown in enumerate(history.shown)],

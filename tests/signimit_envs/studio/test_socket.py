@@ -99,8 +99,9 @@ def test_who_drags_an_object_sees_it_move(page: Any, socket: Any, session: Json)
 def test_every_tab_hears_of_every_change(page: Any, socket: Any, session: Json) -> None:
     page.post(f"sessions/{session['id']}/title", {"revision": 0, "title": "new"})
     news = _next_news(socket)
-    while news != {"type": "changed", "session": session["id"], "revision": 1}:
+    while news != {"type": "changed", "session": session["id"], "revision": 1, "events": 2}:
         news = _next_news(socket)
+    assert page.get(f"sessions/{session['id']}")["events"] == 2
 
 
 @pytest.mark.parametrize(
