@@ -47,4 +47,5 @@ def _checked_velocity(given: Any, step: int) -> NDArray[np.float64]:
     x, y = velocity.tolist() if velocity.shape == (2,) else (math.nan, math.nan)
     if not (math.isfinite(x) and math.isfinite(y)):
         raise InvalidInputError(f"act at step {step}", "a finite velocity of shape (2,), m/s", f"{given!r:.60}")
-    return velocity / max(1.0, abs(x) / FASTEST, abs(y) / FASTEST)
+    allowed: NDArray[np.float64] = velocity / max(1.0, abs(x) / FASTEST, abs(y) / FASTEST)
+    return allowed
