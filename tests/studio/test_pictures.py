@@ -30,7 +30,7 @@ READY = {
 PAIRS = (("ink", "card"), ("ink", "page"), ("quiet", "card"), ("quiet", "page"), ("accent", "card"), ("accent", "soft"))
 MORE_PAIRS = (("on-accent", "accent"), ("bad", "bad-soft"), ("pad-ink", "pad"))
 AA = 4.5  # WCAG 2.2, contrast of text
-COLOURS = 96  # of a picture that is kept
+COLOURS = 255  # of a picture that is kept
 
 
 @pytest.mark.parametrize("look", LOOKS)
@@ -43,7 +43,9 @@ def test_every_view_fits_its_window_and_can_be_read(look: str, visit: Any, new_s
         visitor.page.locator(f"#tab-{view}").click()
         if view == "ask":
             visitor.page.locator("#ask-for-it").click()
+        visitor.page.locator(ready.split()[0]).first.scroll_into_view_if_needed()  # pictures wait to be seen
         visitor.page.locator(ready).first.wait_for()
+        visitor.page.evaluate("() => scrollTo(0, 0)")
         assert visitor.page.evaluate("() => document.documentElement.scrollWidth - innerWidth") == 0, view
         keep(visitor.page, f"studio-{view}-{look}.png")
 
@@ -78,5 +80,6 @@ def keep(page: Any, name: str) -> None:
         return
     if "ask" in name:
         page.wait_for_timeout(6000)  # for the arm to have drawn something
-    picture = Image.open(io.BytesIO(page.screenshot()))
-    picture.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE).save(Path(folder) / name, optimize=True)
+    picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
+    few = picture.quantize(COLOURS, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+    few.save(Path(folder) / name, optimize=True)

@@ -56,28 +56,30 @@ function shape(index, x, y, r) {
  * of the ring that is drawn is the probability.
  */
 export function scenePicture(shown, probability, label) {
-  const rings = (probability ?? []).map((share, i) => (share >= 0.02 ? ring(shown.objects[i], share) : ""));
+  const places = shown.objects.map(centimetres);
+  const path = line(shown.hand.points.map(centimetres));
+  const [x, y] = centimetres(shown.hand.points[0]);
+  const rings = (probability ?? []).map((share, i) => (share >= LEAST_SHARE ? ring(places[i], share) : ""));
   return makeSvg(
     "svg",
-    { viewBox: "-0.52 -0.47 1.04 0.94", class: "scene", role: "img", "aria-label": label },
-    makeSvg("rect", { x: -0.56, y: -0.5, width: 1.12, height: 1, class: "wood" }),
-    ...shown.objects.flatMap(([x, y], i) => [shape(i, x, -y, 0.045), letter(i, x, -y + 0.018, 0.05)]),
-    makeSvg("polyline", { points: line(shown.hand.points), class: "halo" }),
-    makeSvg("polyline", { points: line(shown.hand.points), class: "path" }),
+    { viewBox: "-52 -47 104 94", class: "scene", role: "img", "aria-label": label },
+    makeSvg("rect", { x: -56, y: -50, width: 112, height: 100, class: "wood" }),
+    ...places.flatMap(([u, v], i) => [shape(i, u, -v, 4.5), letter(i, u, -v + 1.8, 5)]),
+    makeSvg("polyline", { points: path, class: "halo" }),
+    makeSvg("polyline", { points: path, class: "path" }),
     ...rings,
-    makeSvg("circle", { cx: shown.hand.points[0][0], cy: -shown.hand.points[0][1], r: 0.022, class: "hand" }),
+    makeSvg("circle", { cx: x, cy: -y, r: 2.2, class: "hand" }),
   );
 }
 
+const LEAST_SHARE = 0.02; // of a probability that is drawn
+const centimetres = ([x, y]) => [100 * x, 100 * y]; // lengths of arcs below 1 are not drawn exactly
+
 function ring([x, y], share) {
-  const around = { cx: x, cy: -y, r: 0.075, pathLength: 100, transform: `rotate(-90 ${x} ${-y})` };
-  const dash = { "stroke-dasharray": `${(100 * share).toFixed(1)} 100` };
-  return makeSvg(
-    "g",
-    {},
-    makeSvg("circle", { ...around, ...dash, class: "ring-rim" }),
-    makeSvg("circle", { ...around, ...dash, class: "ring" }),
-  );
+  const around = { cx: x, cy: -y, r: 7.5, pathLength: 100, transform: `rotate(-90 ${x} ${-y})` };
+  const dash = share < 0.995 ? { "stroke-dasharray": `${(100 * share).toFixed(1)} 100` } : {};
+  const [rim, inner] = ["ring-rim", "ring"].map((name) => makeSvg("circle", { ...around, ...dash, class: name }));
+  return makeSvg("g", {}, rim, inner);
 }
 
 /** Say where the robot thinks a demonstration belongs, e.g. "Movement 2 about the red object, 97 %". */

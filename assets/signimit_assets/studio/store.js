@@ -13,10 +13,10 @@ export function subscribe(listener) {
   listeners.add(listener);
 }
 
-/** Take a session as the server tells it; an older one than is known is dropped. */
+/** Take a session as the server tells it; one that is no newer than what is known is dropped. */
 export function accept(session) {
   const before = store.session;
-  if (before && before.id === session.id && session.revision < before.revision) return before;
+  if (before && before.id === session.id && session.revision <= before.revision) return before;
   store.session = session;
   for (const listener of listeners) listener(session, before);
   return session;

@@ -110,6 +110,7 @@ export class Teach {
   /** Show what is to be done, and what can be done. */
   tell() {
     const { session } = store;
+    if (this.showing && this.showing <= session.demonstrations.length) return this.tellShown(this.showing - 1);
     const old = this.draft.number;
     const ready = this.pads.every((pad) => pad.stroke) && this.table.hand !== null;
     this.teachIt.disabled = !ready || this.busy;
@@ -119,7 +120,17 @@ export class Teach {
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
     byId("teach-prompt").textContent = this.sentence(prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
-    this.choices();
+    return this.choices();
+  }
+
+  /** Show what is being played. */
+  tellShown(number) {
+    const { prompt, by } = store.session.demonstrations[number];
+    const { language } = store.session;
+    this.teachIt.disabled = true;
+    byId("teach-count").textContent = `Demonstration ${number}${by ? `, by ${by}` : ""}`;
+    byId("teach-prompt").textContent = prompt && language ? promptText(language, prompt) : "";
+    byId("teach-examples").replaceChildren();
   }
 
   sentence(prompt, old) {
@@ -240,6 +251,7 @@ export class Teach {
   async perform(number) {
     const shown = await demonstration(number);
     this.showing = number + 1;
+    this.tell();
     this.pads.forEach((pad) => pad.clear(false));
     this.table.open({ objects: shown.objects, hand: shown.hand.points[0] }, path(`demonstrations/${number}/scene.jpg`), null);
     for (const [i, pad] of this.pads.entries()) if (!(await pad.play(shown.signs[i], SHOW_SPEED))) return;
