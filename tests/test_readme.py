@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -26,12 +27,30 @@ def test_the_environment_of_the_readme_obeys(capsys: pytest.CaptureFixture[str])
     assert capsys.readouterr().out.startswith("Request(movement=2, focus=0) True Performance(movement=2, focus=0")
 
 
-def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_environment_of_the_readme_takes_a_language_and_shows_pictures(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    try:
+        choose_backend()
+    except RenderingError as error:
+        pytest.skip(str(error))
+    monkeypatch.chdir(tmp_path)
     exec(BLOCKS[1], {})
+    assert capsys.readouterr().out == "(96, 96, 3) (3, 64, 2) False\n"
+    assert [file.suffix for file in (tmp_path / "films").iterdir()] == [".mp4"]
+
+
+def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.CaptureFixture[str]) -> None:
+    names: dict[str, Any] = {}
+    exec(BLOCKS[2], names)
     printed = capsys.readouterr().out
     assert "8 demonstrations show 2 movements." in printed
     assert "Movement 0: demonstrations 0 (about red), 2 (about green), 4 (about red), 6 (about green)." in printed
     assert printed.splitlines()[-1].startswith("0 1 ")
+    exec(BLOCKS[3], names)
+    assert "No demonstration is in doubt" in capsys.readouterr().out
+    assert names["answer"][:2] == (1, 0)
+    assert len(names["model"].labels) == 9
 
 
 def test_every_program_of_the_readme_exists() -> None:
