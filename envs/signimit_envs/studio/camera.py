@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from signimit_envs.exceptions import RenderingError
+from signimit_envs.rendering import INSTALL
 from signimit_envs.scene import OBJECT_COUNTS, compile_scene
 from signimit_envs.stage import Stage
 from signimit_envs.storyboard import PARKED, Shot
@@ -69,7 +70,7 @@ class Camera:
         self._stop, self._ready = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="camera", daemon=True)
         self._stages: dict[int, Stage] = {}
-        self._blind = ""
+        self._blind: RenderingError | None = None
         self.frames = 0
 
     def start(self) -> None:
@@ -85,7 +86,7 @@ class Camera:
     def why_blind(self, patience: float = 0.0) -> str:
         """Say why there are no pictures, waiting so many seconds for the first one; empty if there are."""
         self._ready.wait(patience)
-        return self._blind
+        return str(self._blind or "")
 
     def still(self, objects: NDArray[np.float64]) -> Future[bytes]:
         """Ask for a JPEG of a table with objects, shape (O, 2), m, the arm out of the way.
@@ -101,7 +102,7 @@ class Camera:
         try:
             self._jpeg(self._look().objects, PARKED)
         except RenderingError as error:
-            self._blind = str(error)
+            self._blind = error
             _log.warning("no pictures: %s", error)
         self._ready.set()
         due, before, drawn_at = time.perf_counter(), None, 0.0
@@ -128,18 +129,18 @@ class Camera:
 
     def _frame(self, state: LiveState) -> bytes:
         picture = b""
-        if not self._blind:
+        if self._blind is None:
             try:
                 picture = self._jpeg(state.objects, state.joints)
             except Exception as error:  # whatever OpenGL does, the page can draw the table itself
                 _log.exception("a frame could not be drawn; going on without pictures")
-                self._blind = f"OpenGL failed: {error}"
+                self._blind = RenderingError(f"OpenGL failed ({error})", INSTALL)
         header = json.dumps(frame_header(state), separators=(",", ":")).encode()
         return struct.pack(">I", len(header)) + header + picture
 
     def _jpeg(self, objects: NDArray[np.float64], joints: NDArray[np.float64]) -> bytes:
-        if self._blind:
-            raise RenderingError("there are no pictures", self._blind)
+        if self._blind is not None:
+            raise RenderingError(self._blind.reason, self._blind.remedy)
         shot = Shot(phase="", caption="", objects=objects, joints=joints)
         encoded = io.BytesIO()
         Image.fromarray(self._stage(len(objects)).picture(shot, "top")).save(encoded, "JPEG", quality=_QUALITY)
