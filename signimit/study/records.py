@@ -30,11 +30,14 @@ def run_sessions(
     done = {(r["cell"], r["seed"]) for r in read_records(records)}
     todo = [(c, s) for s in seeds for c in cells if (c.name, s) not in done]
     context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, context, _start_worker, (people,)) as pool:
+    pool = ProcessPoolExecutor(workers, context, _start_worker, (people,))
+    try:
         for future in as_completed([pool.submit(_run, run, cell, seed) for cell, seed in todo]):
             record = future.result()
             append_record(records, record)
             yield record
+    finally:
+        pool.shutdown(cancel_futures=True)  # whoever stops waits for the sessions under way, not for all that are left
 
 
 def _start_worker(people: People | None) -> None:
