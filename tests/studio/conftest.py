@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -65,10 +65,14 @@ class Visitor:
 
     def __post_init__(self) -> None:
         self.page.set_default_timeout(PATIENCE)
-        self.page.on("console", lambda message: message.type == "error" and self.problems.append(message.text))
+        self.page.on("console", self._check_console)
         self.page.on("pageerror", lambda error: self.problems.append(str(error)))
         self.page.on("request", lambda request: self._check_origin(request.url))
         self.devtools = self.page.context.new_cdp_session(self.page)
+
+    def _check_console(self, message: Any) -> None:
+        if message.type == "error":
+            self.problems.append(message.text)
 
     def _check_origin(self, url: str) -> None:
         own = (self.address, self.address.replace("http", "ws"), "blob:", "data:")
@@ -93,7 +97,7 @@ class Visitor:
     def see(self, selector: str, text: str) -> None:
         playwright.expect(self.page.locator(selector)).to_contain_text(text, timeout=PATIENCE)
 
-    def draw(self, selector: str, places: Sequence[Array], times: Array, lift: bool = True) -> None:
+    def draw(self, selector: str, places: Array, times: Array, lift: bool = True) -> None:
         """Draw over an element, at places in shares of its width and height, as time goes by."""
         element = self.page.locator(selector)
         element.scroll_into_view_if_needed()

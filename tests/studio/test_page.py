@@ -10,7 +10,9 @@ import numpy as np
 import pytest
 
 expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
-Visit, NewSession, NewActor = Callable[..., Any], Callable[..., str], Callable[[int], Any]
+Visit = Callable[..., Any]
+NewSession = Callable[..., str]
+NewActor = Callable[[int], Any]
 PHONE = {"width": 390, "height": 844}
 VIEWS = ("teach", "ask", "look", "keep")
 
@@ -111,7 +113,9 @@ def test_two_tabs_do_not_corrupt_one_session(visit: Visit, new_session: NewSessi
     second.problems.clear()  # the browser reports each refused request
 
 
-def test_everything_is_reached_with_the_keyboard_and_built_in_people_play(visit: Visit, new_session: NewSession) -> None:
+def test_everything_is_reached_with_the_keyboard_and_built_in_people_play(
+    visit: Visit, new_session: NewSession
+) -> None:
     visitor = visit()
     name = new_session(visitor, 10)
     visitor.open("teach", name)
@@ -147,7 +151,9 @@ def press_tab_until(visitor: Any, wanted: str) -> None:
     raise AssertionError(f"{wanted} is not reached with the Tab key")
 
 
-def test_a_session_is_looked_at_exported_imported_and_merged(visit: Visit, new_session: NewSession, tmp_path: Any) -> None:
+def test_a_session_is_looked_at_exported_imported_and_merged(
+    visit: Visit, new_session: NewSession, tmp_path: Any
+) -> None:
     visitor = visit()
     visitor.open("look", new_session(visitor, 4))
     page = visitor.page
@@ -166,7 +172,7 @@ def test_a_session_is_looked_at_exported_imported_and_merged(visit: Visit, new_s
         page.get_by_role("link", name="Demonstration set").click()
     file = tmp_path / "demonstrations.npz"
     download.value.save_as(file)
-    page.locator("#import-file").setevent_files(file)
+    page.locator("#import-file").set_input_files(file)
     page.locator("#import-it").click()
     visitor.see("#session-title", "demonstrations.npz")
     visitor.see("#session-facts", "4 demonstrations")

@@ -13,6 +13,7 @@ let hooks = {};
 export function startBelief(listeners) {
   hooks = listeners;
   subscribe((session, before) => {
+    if (before?.id === session.id && before.revision === session.revision) return; // an answer, or a verdict
     const count = session.demonstrations.length;
     const grown = before?.id !== session.id || before.demonstrations.length !== count;
     if (grown || selected === null || selected >= count) selected = count ? count - 1 : null;

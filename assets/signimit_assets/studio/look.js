@@ -18,7 +18,7 @@ export class Look {
     this.replay = new Replay();
     this.matrix = new Matrix();
     this.figures = new Map();
-    this.shown = "";
+    this.compared = "";
     byId("look-figures").append(make("h3", { textContent: "Figures" }), ...Object.keys(FIGURES).map((n) => this.figure(n)));
     subscribe(() => store.view === "look" && this.enter());
   }
@@ -36,19 +36,24 @@ export class Look {
   }
 
   enter() {
-    const { id, revision } = store.session;
     this.replay.enter();
-    if (this.shown === `${id} ${revision}`) return;
-    this.shown = `${id} ${revision}`;
-    this.matrix.load();
+    const compared = this.state(6);
+    if (this.compared !== compared) this.matrix.load();
+    this.compared = compared;
     for (const number of this.figures.keys()) this.load(number);
   }
 
-  /** Let a figure be drawn, if it is open and not of this revision. */
+  /** Name what a figure shows: answers are in the last one only. */
+  state(number) {
+    const { id, revision, events } = store.session;
+    return `${id} ${Number(number) === 7 ? events : revision}`;
+  }
+
+  /** Let a figure be drawn, if it is open and shows something else. */
   async load(number) {
     const figure = this.figures.get(number);
-    if (!figure.box.open || figure.made === this.shown || !this.shown) return;
-    const wanted = (figure.made = this.shown);
+    if (!figure.box.open || !store.session || figure.made === this.state(number)) return;
+    const wanted = (figure.made = this.state(number));
     figure.note.textContent = "The figure is being drawn…";
     try {
       const drawn = await blob(path(`figures/${number}.png`));

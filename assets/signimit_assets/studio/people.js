@@ -25,6 +25,12 @@ export class Roles {
     return this.demonstrator.select.value;
   }
 
+  /** Whose a demonstration is, for the record. */
+  get by() {
+    const built = [this.signs, this.movement].filter((who) => who === BUILT_IN).length;
+    return ["person", "person and built-in people", "built-in people"][built];
+  }
+
   /** Offer built-in people only where they know the language. */
   allow(known) {
     for (const { select } of [this.interactant, this.demonstrator]) {

@@ -16,16 +16,16 @@ export function subscribe(listener) {
 /** Take a session as the server tells it; one that is no newer than what is known is dropped. */
 export function accept(session) {
   const before = store.session;
-  if (before && before.id === session.id && session.revision <= before.revision) return before;
+  if (before && before.id === session.id && session.events <= before.events) return before;
   store.session = session;
   for (const listener of listeners) listener(session, before);
   return session;
 }
 
-/** Ask for the session again, if there is news. */
-export async function refresh(revision = Infinity) {
+/** Ask for the session again, if there is news; `events` counts everything that happened in it. */
+export async function refresh(events = Infinity) {
   const session = store.session;
-  if (!session || revision <= session.revision) return session;
+  if (!session || events <= session.events) return session;
   const fresh = await get(path(""));
   return store.session?.id === fresh.id ? accept(fresh) : store.session;
 }
@@ -50,16 +50,8 @@ export async function change(work) {
 
 const fetched = new Map();
 subscribe((session, before) => {
-  const appended = before?.id === session.id && session.demonstrations.length >= before.demonstrations.length;
-  const grown = appended && session.revision - before.revision <= 1 && !edited(session, before);
-  if (!grown) fetched.clear();
+  if (before?.id !== session.id || before.revision !== session.revision) fetched.clear();
 });
-
-/** Tell whether anything but an addition came between two revisions. */
-function edited(session, before) {
-  const added = session.demonstrations.length - before.demonstrations.length;
-  return added !== 1 && session.answers.length === before.answers.length;
-}
 
 /** Fetch a demonstration, strokes and all, once. */
 export function demonstration(number) {

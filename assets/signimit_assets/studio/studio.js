@@ -24,7 +24,7 @@ async function begin() {
   const [view, id] = location.hash.slice(1).split("/");
   const live = new LiveTable({
     frame: (header, jpeg) => store.view === "ask" && views.ask.table.frame(header, jpeg),
-    changed: ({ session, revision }) => session === store.session?.id && inBackground(() => refresh(revision)),
+    changed: ({ session, events }) => session === store.session?.id && inBackground(() => refresh(events)),
     demo: (scene) => inBackground(() => follow(scene)),
     state: connection,
   });

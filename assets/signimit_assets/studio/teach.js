@@ -6,8 +6,8 @@ import { attempt, button, byId, complain, make, settle, whisper } from "./dom.js
 import { Draft } from "./draft.js";
 import { SignPad, fitted } from "./pad.js";
 import { BUILT_IN, Roles } from "./people.js";
-import { movementPicture, signPicture } from "./pictures.js";
-import { change, demonstration, objectName, path, people, refresh, store, subscribe } from "./store.js";
+import { counted, examples, promptText, sentence } from "./prompts.js";
+import { change, demonstration, path, people, refresh, store, subscribe } from "./store.js";
 import { TeachTable } from "./teachtable.js";
 
 const SHOW_SPEED = 4; // times as fast as it was drawn
@@ -64,7 +64,7 @@ export class Teach {
     this.undo.disabled = !session.can_undo;
     this.redo.disabled = !session.can_redo;
     const moved = this.draft.place(session);
-    if (moved && !other && this.drawn) complain("The table changed, as somebody else taught this session. Please draw again.");
+    if (moved && !other && this.drawn) complain("The table changed, as this session was changed elsewhere. Please draw again.");
     if (other || moved) this.restore();
     else this.tell();
   }
@@ -118,7 +118,7 @@ export class Teach {
     this.back.hidden = old === null;
     byId("teach-count").textContent = counted(session, old);
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
-    byId("teach-prompt").textContent = this.sentence(prompt, old);
+    byId("teach-prompt").textContent = sentence(session, prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
     return this.choices();
   }
@@ -131,15 +131,6 @@ export class Teach {
     byId("teach-count").textContent = `Demonstration ${number}${by ? `, by ${by}` : ""}`;
     byId("teach-prompt").textContent = prompt && language ? promptText(language, prompt) : "";
     byId("teach-examples").replaceChildren();
-  }
-
-  sentence(prompt, old) {
-    const { language } = store.session;
-    if (old !== null) {
-      const asked = store.session.demonstrations[old].prompt;
-      return asked && language ? `${promptText(language, asked)} Draw again whatever went wrong.` : "Draw again whatever went wrong.";
-    }
-    return prompt?.text ?? "Make up two signs, one for an object and one for a movement. Then move about that object.";
   }
 
   choices() {
@@ -162,7 +153,7 @@ export class Teach {
     const { number, hand } = { number: this.draft.number, hand: this.table.hand };
     if (this.busy || signs.includes(null) || !hand) return;
     this.setBusy(true);
-    const body = { signs, hand, prompted: this.wish === null };
+    const body = { signs, hand, prompted: this.wish === null, by: this.roles.by };
     const done = await attempt(() =>
       change((revision) => {
         const whole = { revision, ...body };
@@ -267,28 +258,3 @@ export class Teach {
     this.continue();
   }
 }
-
-function counted(session, old) {
-  if (old !== null) return `Redraw demonstration ${old}`;
-  const { length } = session.demonstrations;
-  const { left, prompt } = session.next;
-  if (prompt && left) return `Demonstration ${length} · ${left} to go`;
-  return prompt && length ? `Demonstration ${length} · all were shown, more are welcome` : `Demonstration ${length}`;
-}
-
-function promptText(language, { movement, focus }) {
-  const signs = [];
-  signs[language.focus_word] = language.focus_signs[focus];
-  signs[language.movement_word] = language.movement_signs[movement];
-  return `Sign ${signs[0]}, then ${signs[1]}. Then draw a ${language.movements[movement]} about the ${objectName(focus)} object.`;
-}
-
-function examples(prompt, wished) {
-  if (!prompt) return [];
-  const [signs, names] = wished ? [prompt.signs ?? [], ["first sign", "second sign"]] : [prompt.examples, prompt.signs];
-  const drawings = prompt.drawing ? [movementPicture([prompt.drawing], `What a ${prompt.movement_name} looks like`)] : [];
-  const shown = [...signs.map((points, i) => signPicture(points, `What ${names[i]} looks like`)), ...drawings];
-  const captions = [...names, prompt.movement_name];
-  return shown.map((picture, i) => make("figure", {}, picture, make("figcaption", { textContent: captions[i] })));
-}
-

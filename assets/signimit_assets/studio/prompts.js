@@ -1,0 +1,43 @@
+/** What a person is asked to draw, in words and pictures. */
+
+import { make } from "./dom.js";
+import { movementPicture, signPicture } from "./pictures.js";
+import { objectName } from "./store.js";
+
+/** Say what to draw; `old` is the number of a demonstration that is drawn again, or null. */
+export function sentence(session, prompt, old) {
+  if (old === null) {
+    return prompt?.text ?? "Make up two signs, one for an object and one for a movement. Then move about that object.";
+  }
+  const asked = session.demonstrations[old].prompt;
+  const again = "Draw again whatever went wrong.";
+  return asked && session.language ? `${promptText(session.language, asked)} ${again}` : again;
+}
+
+/** Say which demonstration comes, and how many are to follow. */
+export function counted(session, old) {
+  if (old !== null) return `Redraw demonstration ${old}`;
+  const { length } = session.demonstrations;
+  const { left, prompt } = session.next;
+  if (prompt && left) return `Demonstration ${length} · ${left} to go`;
+  return prompt && length ? `Demonstration ${length} · all were shown, more are welcome` : `Demonstration ${length}`;
+}
+
+/** Say what a request of a language asks to draw. */
+export function promptText(language, { movement, focus }) {
+  const signs = [];
+  signs[language.focus_word] = language.focus_signs[focus];
+  signs[language.movement_word] = language.movement_signs[movement];
+  return `Sign ${signs[0]}, then ${signs[1]}. Then draw a ${language.movements[movement]} about the ${objectName(focus)} object.`;
+}
+
+/** Show how signs and movement look. */
+export function examples(prompt, wished) {
+  if (!prompt) return [];
+  const [signs, names] = wished ? [prompt.signs ?? [], ["first sign", "second sign"]] : [prompt.examples, prompt.signs];
+  const drawings = prompt.drawing ? [movementPicture([prompt.drawing], `What a ${prompt.movement_name} looks like`)] : [];
+  const shown = [...signs.map((points, i) => signPicture(points, `What ${names[i]} looks like`)), ...drawings];
+  const captions = [...names, prompt.movement_name];
+  return shown.map((picture, i) => make("figure", {}, picture, make("figcaption", { textContent: captions[i] })));
+}
+
