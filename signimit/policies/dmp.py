@@ -43,7 +43,7 @@ class PrimitiveState(NamedTuple):
     drawing: NDArray[np.bool_] | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DMPPolicy(StoredPolicy):
     """Discrete reach to the nearest place of the course, then the rhythmic primitive; both are one spring.
 

@@ -29,7 +29,7 @@ STEPS = 30  # of expectation maximisation
 MOST_POINTS = 800  # evenly taken from all demonstrations; enough for 16 components over four features
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class GMRPolicy(StoredPolicy):
     """Expected velocity given the position, under a mixture over (position, velocity).
 

@@ -25,7 +25,7 @@ NEIGHBOURS, STEPS = 50, 4  # points of a local mixture, and steps of expectation
 BLOCK = 256  # hands at once
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ILOGMRPolicy(StoredPolicy):
     """Expected velocity under a mixture of two, fitted to the 50 nearest points at every call.
 

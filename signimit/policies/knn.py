@@ -18,7 +18,7 @@ from signimit.strokes import Stroke
 NEIGHBOURS = 50  # the paper's
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class KNearestPolicy(StoredPolicy):
     """Move in the mean direction of the 50 nearest demonstrated points.
 

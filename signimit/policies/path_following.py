@@ -41,7 +41,7 @@ class PhaseState(NamedTuple):
     nodes: int | NDArray[np.int64] | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PathFollowingPolicy(StoredPolicy):
     """Follow a course whose nodes are one control period apart.
 

@@ -35,6 +35,14 @@ class StoredPolicy:
                     raise InvalidInputError(f"policy: {field.name}", "finite numbers", "others, or none")
                 object.__setattr__(self, field.name, value)
 
+    def __repr__(self) -> str:
+        """Name the fields, arrays by their shapes: a policy is printed with every response."""
+        values = (
+            (field.name, np.asarray(getattr(self, field.name))) for field in dataclasses.fields(self) if field.init
+        )
+        shown = (f"{name}=<{'x'.join(map(str, v.shape))}>" if v.ndim else f"{name}={v:.4g}" for name, v in values)
+        return f"{type(self).__name__}({', '.join(shown)})"
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write the policy to a file that `load_policy` reads; whole or not at all."""
         arrays: dict[str, NDArray[np.float64]] = {

@@ -85,6 +85,12 @@ def test_a_saved_policy_is_the_same_policy(kind: str, policies: dict[str, Policy
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_a_policy_is_printed_in_a_line(kind: str, policies: dict[str, Policy]) -> None:
+    assert len(repr(policies[kind])) < 100
+    assert type(policies[kind]).__name__ in repr(policies[kind])
+
+
+@pytest.mark.parametrize("kind", POLICY_KINDS)
 def test_the_same_demonstrations_give_the_same_policy(kind: str, policies: dict[str, Policy], shown: Compose) -> None:
     paths, times, _ = shown("triangle up")
     for array in (*paths, *times):
