@@ -20,7 +20,7 @@ try:
 except ImportError:
     raise MissingDependencyError("torch", "deep", "A deep entry") from None
 
-STEPS = 2000
+STEPS, STEPS_EACH = 2000, 4  # batches, and how many more for each demonstration
 UTTERANCES, MOMENTS = 32, 256  # of a batch, about
 LEARNING_RATE, WEIGHT_DECAY = 2e-3, 1e-4
 ASTRAY = 0.06  # m, the most that the standard deviation of a hand's disturbance is
@@ -106,9 +106,10 @@ def _lesson(demonstrations: DemonstrationSet) -> Lesson:
 
 def _train(network: SignConditionedNetwork, lesson: Lesson) -> None:
     """Minimise the squared error of velocities."""
+    steps = STEPS + STEPS_EACH * len(lesson.signs)
     optimiser = torch.optim.AdamW(network.parameters(), lr=LEARNING_RATE, weight_decay=WEIGHT_DECAY)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, LEARNING_RATE, total_steps=STEPS)
-    for _ in range(STEPS):
+    schedule = torch.optim.lr_scheduler.OneCycleLR(optimiser, LEARNING_RATE, total_steps=steps)
+    for _ in range(steps):
         optimiser.zero_grad()
         _batch_loss(network, lesson).backward()  # type: ignore[no-untyped-call, unused-ignore]
         optimiser.step()

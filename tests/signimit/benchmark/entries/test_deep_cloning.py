@@ -20,6 +20,7 @@ DEEP = [name for name in ENTRANTS if name.startswith("deep")]
 def torch(monkeypatch: pytest.MonkeyPatch) -> Any:
     module = pytest.importorskip("torch", reason="PyTorch is not installed")
     monkeypatch.setattr("signimit.benchmark.entries.deep_cloning.STEPS", 15)
+    monkeypatch.setattr("signimit.benchmark.entries.deep_cloning.STEPS_EACH", 0)
     return module
 
 
