@@ -83,7 +83,8 @@ def estimate_share(sums: ArrayLike, counts: ArrayLike) -> Estimate:
 
     Wilson's interval, with as many independent scores as the spread between clusters leaves: p (1 - p) over the
     variance of the mean, but not fewer than clusters nor more than scores (E. L. Korn and B. I. Graubard, Survey
-    Methodology 24, 1998). No variable in [0, 1] spreads more than a coin of the same mean, so that this holds for
+    Methodology 24, 1998). One cluster counts as one score; where all are right, or none, no spread shows, and all count.
+    No variable in [0, 1] spreads more than a coin of the same mean, so that this holds for
     shares, too.
 
     Args:
@@ -94,7 +95,7 @@ def estimate_share(sums: ArrayLike, counts: ArrayLike) -> Estimate:
     scores = float(count.sum())
     mean = float(total.sum() / scores)
     share, variance = min(1.0, max(0.0, mean)), _variance_of_mean(total, count)  # a Rand index may be below 0
-    effective = scores
+    effective = scores if len(total) > 1 else 1.0
     if variance > 0 and 0 < share < 1:
         effective = min(scores, max(float(len(total)), share * (1 - share) / variance))
     low, high = wilson_interval(share * effective, effective)

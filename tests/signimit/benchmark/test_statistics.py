@@ -34,6 +34,10 @@ def test_nothing_wrong_and_nothing_right_have_wilsons_intervals() -> None:
     assert interval(estimate_share([0] * 20, [9] * 20))[1:] == pytest.approx(wilson_interval(0, 180))
 
 
+def test_one_session_is_one_piece_of_luck() -> None:
+    assert interval(estimate_share([9], [9])) == pytest.approx((1.0, *wilson_interval(1, 1)))
+
+
 def test_a_rand_index_below_zero_lies_within_its_interval() -> None:
     found = estimate_share([-0.1, -0.02], [1, 1])
     assert found.low == found.mean < 0 < found.high
