@@ -83,9 +83,8 @@ def estimate_share(sums: ArrayLike, counts: ArrayLike) -> Estimate:
 
     Wilson's interval, with as many independent scores as the spread between clusters leaves: p (1 - p) over the
     variance of the mean, but not fewer than clusters nor more than scores (E. L. Korn and B. I. Graubard, Survey
-    Methodology 24, 1998). One cluster counts as one score; where all are right, or none, no spread shows, and all count.
-    No variable in [0, 1] spreads more than a coin of the same mean, so that this holds for
-    shares, too.
+    Methodology 24, 1998). One cluster counts as one score; where all are right, or none, no spread shows, and all
+    count. No variable in [0, 1] spreads more than a coin of the same mean, so that this holds for shares, too.
 
     Args:
         sums: Sum of the scores of each cluster, shape (n,).
