@@ -24,6 +24,7 @@ export class Ask {
       button("Shove the hand", () => this.table.shoveAnywhere(), { id: "shove" }),
       button("Stop", () => attempt(() => api.post(path("stop"))), { id: "stop" }),
     );
+    this.makeThumbs();
     subscribe((session, before) => this.changed(session, before));
   }
 
@@ -112,19 +113,30 @@ export class Ask {
     const sentence = answer ? `${capital(answer.text)}` : taught ? INVITATION : UNTAUGHT;
     const host = byId("ask-sentence");
     if (host.textContent !== sentence) host.textContent = sentence;
-    byId("ask-verdict").replaceChildren(...(answer ? this.thumbs(answer) : []));
+    this.showVerdict(answer);
   }
 
-  thumbs(answer) {
-    const judge = (good) =>
-      attempt(async () => accept(await api.post(path(`answers/${answer.number}/verdict`), { good: answer.verdict === good ? null : good })));
+  /** Show the thumbs of an answer; they stay the same elements, so that the keyboard keeps its place. */
+  showVerdict(answer) {
+    byId("ask-verdict").hidden = !answer;
+    for (const [good, thumb] of this.thumbs) thumb.setAttribute("aria-pressed", String(answer?.verdict === good));
+  }
+
+  makeThumbs() {
     const thumb = (good, word, title) => {
-      const pressed = String(answer.verdict === good);
-      const made = button("", () => judge(good), { className: "verdict", "aria-pressed": pressed, title });
+      const made = button("", () => this.judge(good), { className: "verdict", title });
       made.append(thumbPicture(good), word);
-      return made;
+      return [good, made];
     };
-    return [thumb(true, "Right", "That is what I asked for"), thumb(false, "Wrong", "That is not what I asked for")];
+    this.thumbs = [thumb(true, "Right", "That is what I asked for"), thumb(false, "Wrong", "That is not what I asked for")];
+    byId("ask-verdict").append(...this.thumbs.map(([, made]) => made));
+  }
+
+  /** Keep a verdict; the same once more takes it back. */
+  judge(good) {
+    const { number, verdict } = store.session.answers[this.asked.number] ?? this.asked;
+    const wanted = { good: verdict === good ? null : good };
+    return attempt(async () => accept(await api.post(path(`answers/${number}/verdict`), wanted)));
   }
 
   showPeople(before) {

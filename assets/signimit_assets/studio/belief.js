@@ -35,7 +35,11 @@ function show() {
   else if (!belief || belief.failed) parts.push(make("p", { className: "lead", textContent: belief?.failed ?? "…" }));
   else parts.push(orderCard(belief), demonstrationCard(belief), movementCard(belief), objectCard(belief), wishCard(belief));
   if (demonstrations.length && belief?.failed) parts.push(demonstrationCard(null));
+  const label = host.contains(document.activeElement) && document.activeElement.getAttribute("aria-label");
   host.replaceChildren(...parts);
+  if (!label) return; // else the keyboard keeps its place
+  const same = [...host.querySelectorAll("button")].find((one) => one.getAttribute("aria-label") === label);
+  same?.focus({ preventScroll: true });
 }
 
 const NOTHING =
@@ -100,10 +104,7 @@ function thumb(belief, number) {
     title: about,
     "aria-pressed": String(number === selected),
     "aria-label": `Demonstration ${number}. ${about}${sure ? "" : ". Unsure"}`,
-    onclick: () => {
-      select(number);
-      document.querySelector(`.thumb:nth-child(${number + 1})`)?.focus({ preventScroll: true });
-    },
+    onclick: () => select(number),
   });
   const picture = make("span", { className: "picture-box" });
   made.append(picture, make("span", { className: "number", textContent: sure ? String(number) : `${number} ?` }));

@@ -7,6 +7,7 @@ import { Draft } from "./draft.js";
 import { SignPad, fitted } from "./pad.js";
 import { BUILT_IN, Roles } from "./people.js";
 import { counted, examples, promptText, sentence } from "./prompts.js";
+import { onUndoKeys } from "./shortcuts.js";
 import { change, demonstration, path, people, refresh, store, subscribe } from "./store.js";
 import { TeachTable } from "./teachtable.js";
 
@@ -40,16 +41,7 @@ export class Teach {
     this.redo = button("Redo", () => this.edit("redo"), { id: "redo" });
     this.back = button("Keep it as it was", () => this.leaveRedraw(), { hidden: true });
     byId("teach-actions").append(this.teachIt, this.again, this.undo, this.redo, this.back);
-    document.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  key(event) {
-    const typing = event.target.closest("input, select, textarea");
-    if (store.view !== "teach" || typing || !(event.ctrlKey || event.metaKey)) return;
-    const what = { z: event.shiftKey ? "redo" : "undo", y: "redo" }[event.key.toLowerCase()];
-    if (!what || this[what].disabled) return;
-    event.preventDefault();
-    this.edit(what);
+    onUndoKeys((what) => store.view === "teach" && !this[what].disabled && this.edit(what));
   }
 
   /** The session is another, or another revision of it. */
@@ -135,8 +127,8 @@ export class Teach {
 
   choices() {
     const host = byId("teach-choices");
-    if (!this.wish) return host.replaceChildren();
-    return host.replaceChildren(button("Back to the list", () => this.follow(null)));
+    const back = () => button("Back to the list", () => this.follow(null));
+    host.replaceChildren(...(this.wish ? [back()] : []));
   }
 
   /** Demonstrate what the robot would like to see. */
@@ -171,8 +163,7 @@ export class Teach {
     this.restore();
     const which = number ?? session.demonstrations.length - 1;
     select(which);
-    const { belief } = session;
-    whisper(belief?.failed ?? byId("chosen-belief")?.textContent ?? "");
+    whisper(session.belief?.failed ?? byId("chosen-belief")?.textContent ?? "");
     return true;
   }
 
