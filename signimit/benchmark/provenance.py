@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import platform
 from functools import cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import numpy as np
@@ -23,11 +24,19 @@ def code_hash() -> str:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions that a result may depend on."""
-    return {
+    """Return the versions that a result may depend on; libraries of some entries only where they are installed."""
+    optional = {name: found for name in ("scikit-learn", "torch") if (found := _installed(name))}
+    return optional | {
         "signimit": signimit.__version__,
         "python": platform.python_version(),
         "numpy": np.__version__,
         "scipy": scipy.__version__,
         "machine": platform.machine(),
     }
+
+
+def _installed(name: str) -> str | None:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
