@@ -28,22 +28,27 @@ def test_others_are_let_in_only_by_who_knows(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no kill -9")
-def test_what_was_shown_is_there_after_a_kill_minus_nine_and_an_interrupt_ends_it_quietly(tmp_path: Path) -> None:
+def test_what_was_drawn_is_there_after_a_kill_minus_nine_and_an_interrupt_ends_it_quietly(tmp_path: Path) -> None:
     pytest.importorskip("fastapi", reason="the studio needs signimit[studio]")
     httpx = pytest.importorskip("httpx")
     stroke = {"points": [[0, 0], [0.1, 0.1], [0.2, 0]], "times": [0, 0.1, 0.2]}
     body = {"revision": 0, "signs": [stroke, stroke], "hand": stroke}
+    draft = {"revision": 1, "drawn": {"sign 1": [stroke]}}
     with subprocess.Popen(_command("--folder", str(tmp_path)), **PIPES) as studio:  # type: ignore[call-overload]
         address = studio.stdout.readline().split()[-1]
         session = httpx.post(f"{address}api/sessions", json={}, trust_env=False).json()["id"]
         where = f"{address}api/sessions/{session}/demonstrations"
         assert address.startswith("http://127.0.0.1:")
         assert httpx.post(where, json=body, timeout=60, trust_env=False).status_code == 200
+        where = f"{address}api/sessions/{session}/draft"
+        assert httpx.put(where, json=draft, timeout=60, trust_env=False).status_code == 200
         studio.kill()
     with subprocess.Popen(_command("--folder", str(tmp_path)), **PIPES) as studio:  # type: ignore[call-overload]
         address = studio.stdout.readline().split()[-1]
         kept = httpx.get(f"{address}api/sessions/{session}/demonstrations/0", timeout=60, trust_env=False).json()
         assert kept["hand"] == stroke
+        again = httpx.get(f"{address}api/sessions/{session}", timeout=60, trust_env=False).json()
+        assert again["draft"] == {"number": None, "drawn": {"sign 1": [stroke]}}
         studio.send_signal(signal.SIGINT)
         _, complaints = studio.communicate(timeout=60)
     assert "Traceback" not in complaints

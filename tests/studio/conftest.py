@@ -94,6 +94,11 @@ class Visitor:
     def session(self) -> Json:
         return dict(self.api(f"sessions/{self.page.url.rpartition('/')[2]}"))
 
+    def until_kept(self, place: str) -> None:
+        """Wait until the server has what is drawn at a place."""
+        script = "async ([where, place]) => (await (await fetch(where)).json()).draft.drawn[place]?.length > 0"
+        self.page.wait_for_function(script, arg=[f"api/sessions/{self.page.url.rpartition('/')[2]}", place], polling=50)
+
     def see(self, selector: str, text: str) -> None:
         playwright.expect(self.page.locator(selector)).to_contain_text(text, timeout=PATIENCE)
 
@@ -186,7 +191,7 @@ def visit(browser: Any, address: str) -> Iterator[Callable[..., Visitor]]:
     """Opens pages; when the test is over none of them may have complained or looked elsewhere."""
     contexts, visitors = [], []
 
-    def come(touch: bool = False, **options: Any) -> Visitor:
+    def come(touch: bool = False, address: str = address, **options: Any) -> Visitor:
         context = browser.new_context(has_touch=touch, is_mobile=touch, reduced_motion="reduce", **options)
         contexts.append(context)
         visitors.append(Visitor(context.new_page(), address, touch))

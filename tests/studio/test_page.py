@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import re
+import signal
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+
+from signimit_envs.studio.loopback import studio_process
 
 expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
 Visit = Callable[..., Any]
@@ -28,6 +33,7 @@ def test_a_reload_in_the_middle_of_a_demonstration_loses_nothing(
     visitor.open("teach", new_session(visitor, 1))
     session = visitor.session()
     person.speak(visitor, "teach", session["next"]["prompt"])
+    visitor.until_kept("sign 2")
     visitor.page.reload()
     expect(drawn(visitor, 1)).to_be_visible()
     expect(drawn(visitor, 2)).to_be_visible()
@@ -36,6 +42,41 @@ def test_a_reload_in_the_middle_of_a_demonstration_loses_nothing(
     visitor.see("#teach-count", "Demonstration 2")
     signs = visitor.api(f"sessions/{session['id']}/demonstrations/1")["signs"]
     assert [len(sign["points"]) for sign in signs] == [12, 12]
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="this system has no kill -9")
+def test_a_half_drawn_demonstration_and_question_are_there_in_a_new_tab_after_a_kill_minus_nine(
+    visit: Visit, new_session: NewSession, actor: NewActor, tmp_path: Path
+) -> None:
+    person = actor(6)
+    with studio_process(tmp_path) as (address, process):
+        first = visit(address=address)
+        name = new_session(first, 1)
+        first.open("teach", name)
+        first.sign("teach", 1, person.signer.draw("1", person.rng).points)
+        first.until_kept("sign 1")
+        first.page.locator("#tab-ask").click()
+        first.sign("ask", 1, person.signer.draw("2", person.rng).points)
+        first.until_kept("question")
+        os.kill(process, signal.SIGKILL)
+        first.see("#connection", "No connection")
+        first.problems.clear()  # the browser reports each attempt to connect
+        first.page.close()
+    with studio_process(tmp_path) as (address, _):
+        second = visit(address=address)
+        second.open("teach", name)
+        expect(drawn(second, 1)).to_be_visible()
+        expect(drawn(second, 2)).to_have_count(0)
+        second.sign("teach", 2, person.signer.draw("4", person.rng).points)
+        second.hand(person.path(second.session()))
+        second.page.locator("#teach-it").click()
+        second.see("#teach-count", "Demonstration 2")
+        expect(drawn(second, 1)).to_have_count(0)
+        second.page.locator("#tab-ask").click()
+        expect(second.page.locator("#ask-pads canvas[aria-label='First sign: drawn']")).to_be_visible()
+        second.sign("ask", 2, person.signer.draw("4", person.rng).points)
+        second.see("#ask-sentence", "object, ")
+        assert second.session()["draft"]["drawn"] == {}
 
 
 def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(

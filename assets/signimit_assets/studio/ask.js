@@ -5,15 +5,21 @@ import { AskTable } from "./asktable.js";
 import { attempt, button, byId, capital, make, percent } from "./dom.js";
 import { SignPad } from "./pad.js";
 import { thumbPicture } from "./pictures.js";
+import { QUESTION } from "./draft.js";
 import { accept, objectName, path, people, refresh, store, subscribe } from "./store.js";
 
 const INVITATION = "Draw two signs; the arm answers as the second one is done.";
 const UNTAUGHT = "The robot has not been taught anything yet. Demonstrate something first, in Teach.";
 
 export class Ask {
-  /** @param {LiveTable} live @param {function} replay called with the number of an answer */
-  constructor(live, replay) {
+  /**
+   * @param {LiveTable} live
+   * @param {function} replay called with the number of an answer
+   * @param {function} keep called with the strokes of a first sign, so that they are not lost
+   */
+  constructor(live, replay, keep) {
     this.replay = replay;
+    this.keep = keep;
     this.request = null;
     this.asked = null;
     this.table = new AskTable(byId("ask-stage"), live, (header) => this.framed(header));
@@ -29,14 +35,23 @@ export class Ask {
   }
 
   changed(session, before) {
-    if (before?.id !== session.id) {
+    const other = before?.id !== session.id;
+    if (other) {
       this.asked = null;
       this.pads.forEach((pad) => pad.clear(false));
       if (before && store.view === "ask") attempt(() => this.takeTable());
     }
+    this.takeUp(session.draft.drawn[QUESTION] ?? [], other ? [] : (before.draft.drawn[QUESTION] ?? []));
     this.tell();
     this.showPeople(before);
     this.showAnswers();
+  }
+
+  /** Show the first sign of a question that was begun here earlier or elsewhere. */
+  takeUp(question, known) {
+    const [first] = this.pads;
+    const news = question.length && JSON.stringify(question) !== JSON.stringify(known);
+    if (news && !first.drawing) first.put(question);
   }
 
   /** The view is opened: the live table becomes this session's, unless it is already. */
@@ -71,6 +86,7 @@ export class Ask {
   }
 
   signed(number, byHand) {
+    if (byHand && number === 1) this.keep(this.pads[0].parts);
     if (!byHand || number !== 2 || !this.pads.every((pad) => pad.stroke)) return;
     this.ask();
   }

@@ -1,61 +1,87 @@
-/** What is drawn of a demonstration that is not sent yet; a reload of the page does not lose it. */
+/**
+ * What is drawn of a demonstration that is not taught yet, and the first sign in Ask. The server keeps each stroke as
+ * it is finished, so that any page that opens the session has it; of two pages the last stroke at a place counts.
+ */
 
-const EMPTY = { number: null, parts: [[], []], hand: null };
+import { put } from "./api.js";
+import { complain } from "./dom.js";
+import { accept, refresh, store } from "./store.js";
+
+export const SIGNS = ["sign 1", "sign 2"];
+export const HAND = "hand";
+export const QUESTION = "question";
+const PLACES = [...SIGNS, HAND];
+const STALE = 409;
+const UNUSABLE = 422;
 
 export class Draft {
-  constructor() {
-    this.key = null;
-    Object.assign(this, structuredClone(EMPTY), { scene: null });
-  }
-
-  /** Take up what was drawn for a session in this tab. */
-  open(id) {
-    this.key = `signimit draft of ${id}`;
-    let kept = null;
-    try {
-      kept = JSON.parse(sessionStorage.getItem(this.key));
-    } catch {
-      // somebody else's or a broken note is no draft
-    }
-    Object.assign(this, structuredClone(EMPTY), { scene: null }, kept);
-  }
-
-  /** Follow the session to its scene; tells whether the table is another, and the draft gone. */
-  place(session) {
-    const scene = JSON.stringify(session.next.scene);
-    const gone = this.number !== null ? this.number >= session.demonstrations.length : this.scene !== scene;
-    const same = this.scene === scene;
-    this.scene = scene;
-    if (gone) this.reset();
-    return gone || (this.number === null && !same);
-  }
-
-  keep(parts, hand) {
-    Object.assign(this, { parts, hand });
-    this.write();
-  }
-
-  /** Begin with a demonstration as it was, to draw some of it again. */
-  redraw({ number, signs, hand }, fit) {
-    Object.assign(this, { number, parts: signs.map((sign) => [fit(sign)]), hand });
-    this.write();
-  }
-
-  clear() {
+  constructor(id) {
+    this.id = id;
+    this.table = null; // what tells one table from the next
+    this.told = { number: null, drawn: {} }; // the draft that the server told last
+    this.unsent = {};
+    this.sent = Promise.resolve();
     this.reset();
-    this.write();
   }
 
-  reset() {
-    Object.assign(this, structuredClone(EMPTY));
+  reset(number = null) {
+    this.number = number; // of the demonstration that is drawn again
+    this.drawn = {}; // strokes by their places
   }
 
-  write() {
-    const { number, parts, hand, scene } = this;
+  /** Follow the session; tells the places where something else is drawn now, or null if all of it is another. */
+  follow({ revision, next, demonstrations, draft }) {
+    const table = JSON.stringify([next.scene, demonstrations.length]);
+    const { told } = this;
+    const moved = table !== this.table;
+    const turned = draft.number !== told.number && draft.number !== this.number;
+    Object.assign(this, { revision, table, told: draft });
+    if (moved) this.unsent = {};
+    if (moved || turned) {
+      this.reset(draft.number);
+      Object.assign(this.drawn, draft.drawn, this.unsent);
+      return null;
+    }
+    const known = draft.number === told.number ? told : this;
+    const same = (place) => JSON.stringify(draft.drawn[place]) === JSON.stringify(known.drawn[place]);
+    const others = [...PLACES, QUESTION].filter((place) => !(place in this.unsent) && !same(place));
+    for (const place of others) this.drawn[place] = draft.drawn[place];
+    return others;
+  }
+
+  /** Take what is drawn now at some places, [strokes] by place, and send it. */
+  keep(drawn) {
+    Object.assign(this.drawn, drawn);
+    Object.assign(this.unsent, drawn);
+    return this.flush();
+  }
+
+  /** Nothing is drawn any more, and no demonstration drawn again. */
+  clear() {
+    const kept = { ...this.told.drawn, ...this.drawn };
+    const empty = this.told.number === null && !PLACES.some((place) => kept[place]?.length);
+    this.reset();
+    if (!empty) this.keep(Object.fromEntries(PLACES.map((place) => [place, []])));
+  }
+
+  /** Send what was not sent yet; resolves when the server has it. */
+  flush() {
+    this.sent = this.sent.then(() => this.send());
+    return this.sent;
+  }
+
+  async send() {
+    const { number, revision, table, unsent } = this;
+    if (!Object.keys(unsent).length) return;
+    this.unsent = {};
     try {
-      sessionStorage.setItem(this.key, JSON.stringify({ number, parts, hand, scene }));
-    } catch {
-      // a full or forbidden storage only costs the draft at a reload
+      const session = await put(`sessions/${this.id}/draft`, { revision, number, drawn: unsent });
+      if (store.session.id === this.id) accept(session);
+    } catch (problem) {
+      if (problem.status === STALE && store.session.id === this.id) await refresh().catch(complain);
+      if (table === this.table && problem.status !== UNUSABLE) this.unsent = { ...unsent, ...this.unsent };
+      if (revision === this.revision) complain(problem);
+      else await this.send();
     }
   }
 }

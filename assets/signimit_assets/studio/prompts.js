@@ -23,6 +23,12 @@ export function counted(session, old) {
   return prompt && length ? `Demonstration ${length} · all were shown, more are welcome` : `Demonstration ${length}`;
 }
 
+/** Say which demonstration is played, and what it was to be. */
+export function shownTexts({ demonstrations, language }, number) {
+  const { prompt, by } = demonstrations[number];
+  return [`Demonstration ${number}${by ? `, by ${by}` : ""}`, prompt && language ? promptText(language, prompt) : ""];
+}
+
 /** Say what a request of a language asks to draw. */
 export function promptText(language, { movement, focus }) {
   const signs = [];

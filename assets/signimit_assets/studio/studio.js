@@ -4,6 +4,7 @@ import { get, post } from "./api.js";
 import { Ask } from "./ask.js";
 import { select } from "./belief.js";
 import { byId, complain } from "./dom.js";
+import { QUESTION } from "./draft.js";
 import { Keep } from "./keep.js";
 import { Look } from "./look.js";
 import { LiveTable } from "./socket.js";
@@ -30,7 +31,7 @@ async function begin() {
   });
   views.teach = new Teach((number) => replay(`demonstrations/${number}`));
   views.look = new Look();
-  views.ask = new Ask(live, (number) => replay(`answers/${number}`));
+  views.ask = new Ask(live, (number) => replay(`answers/${number}`), (strokes) => views.teach.draft.keep({ [QUESTION]: strokes }));
   views.keep = new Keep(() => show("teach"));
   subscribe(header);
   startTabs();

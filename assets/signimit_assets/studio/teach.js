@@ -3,10 +3,10 @@
 import * as api from "./api.js";
 import { select, startBelief } from "./belief.js";
 import { attempt, button, byId, complain, make, settle, whisper } from "./dom.js";
-import { Draft } from "./draft.js";
+import { Draft, HAND, SIGNS } from "./draft.js";
 import { SignPad, fitted } from "./pad.js";
 import { BUILT_IN, Roles } from "./people.js";
-import { counted, examples, promptText, sentence } from "./prompts.js";
+import { counted, examples, sentence, shownTexts } from "./prompts.js";
 import { onUndoKeys } from "./shortcuts.js";
 import { change, demonstration, path, people, refresh, store, subscribe } from "./store.js";
 import { TeachTable } from "./teachtable.js";
@@ -16,13 +16,13 @@ const SHOW_SPEED = 4; // times as fast as it was drawn
 export class Teach {
   /** @param {function} replay called with the number of a demonstration that is to be seen in Look */
   constructor(replay) {
-    this.draft = new Draft();
+    this.draft = null;
     this.busy = false;
     this.wish = null;
     this.showing = 0; // which demonstration is played here, from 1; 0 for none
-    this.pads = [1, 2].map((number) => new SignPad(number, (byHand) => this.signed(byHand)));
+    this.pads = SIGNS.map((place, i) => new SignPad(i + 1, (byHand) => this.drew(place, this.pads[i].parts, byHand)));
     byId("teach-pads").append(...this.pads.map((pad) => pad.element));
-    this.table = new TeachTable(byId("teach-stage"), (byHand) => this.moved(byHand));
+    this.table = new TeachTable(byId("teach-stage"), () => this.drew(HAND, this.table.hand ? [this.table.hand] : []));
     this.roles = new Roles(byId("teach-roles"), () => this.continue());
     this.makeButtons();
     startBelief({
@@ -39,7 +39,7 @@ export class Teach {
     this.again = button("Clear all", () => this.begin());
     this.undo = button("Undo", () => this.edit("undo"), { id: "undo" });
     this.redo = button("Redo", () => this.edit("redo"), { id: "redo" });
-    this.back = button("Keep it as it was", () => this.leaveRedraw(), { hidden: true });
+    this.back = button("Keep it as it was", () => this.begin(), { hidden: true });
     byId("teach-actions").append(this.teachIt, this.again, this.undo, this.redo, this.back);
     onUndoKeys((what) => store.view === "teach" && !this[what].disabled && this.edit(what));
   }
@@ -48,36 +48,52 @@ export class Teach {
   changed(session, before) {
     const other = before?.id !== session.id;
     if (other) {
-      this.draft.open(session.id);
+      this.draft = new Draft(session.id);
       this.roles.allow(session.language !== null);
       this.roles.mine();
       this.wish = null;
     }
     this.undo.disabled = !session.can_undo;
     this.redo.disabled = !session.can_redo;
-    const moved = this.draft.place(session);
-    if (moved && !other && this.drawn) complain("The table changed, as this session was changed elsewhere. Please draw again.");
-    if (other || moved) this.restore();
-    else this.tell();
+    const places = this.draft.follow(session);
+    if (places === null && !other && !this.busy && this.drawn) complain("The table changed, as this session was changed elsewhere. Please draw again.");
+    if (places === null) this.restore();
+    else this.takeUp(places);
+  }
+
+  /** Show what another page drew, unless a person draws there now. */
+  takeUp(places) {
+    const { drawn } = this.draft;
+    if (this.showing) return this.tell();
+    this.pads.forEach((pad, i) => places.includes(SIGNS[i]) && !pad.drawing && pad.put(drawn[SIGNS[i]] ?? []));
+    if (places.includes(HAND) && !this.table.drawing) this.table.put(drawn[HAND]?.[0] ?? null);
+    return this.tell();
   }
 
   get drawn() {
     return this.pads.some((pad) => pad.parts.length) || this.table.hand !== null;
   }
 
-  /** Show the table, and what was drawn on it before a reload. */
+  /** Show the table, and what is drawn on it already. */
   restore() {
-    const { number, parts, hand } = this.draft;
-    this.pads.forEach((pad, i) => pad.put(parts[i]));
-    if (number === null) this.table.open(store.session.next.scene, path(`scene.jpg?revision=${store.session.revision}`), hand);
+    const { number } = this.draft;
+    if (number === null) this.open(store.session.next.scene, path(`scene.jpg?revision=${store.session.revision}`), [[], []], null);
     else attempt(async () => this.openOld(await demonstration(number)));
-    this.tell();
-    this.continue();
   }
 
-  openOld(shown) {
-    const scene = { objects: shown.objects, hand: shown.hand.points[0] };
-    this.table.open(scene, path(`demonstrations/${shown.number}/scene.jpg`), this.draft.hand);
+  /** Show a demonstration that is drawn again: as it was, but for what is drawn anew. */
+  openOld({ number, objects, hand, signs }) {
+    if (this.draft.number !== number) return;
+    const scene = { objects, hand: hand.points[0] };
+    this.open(scene, path(`demonstrations/${number}/scene.jpg`), signs.map((sign) => [fitted(sign)]), hand);
+  }
+
+  open(scene, picture, signs, hand) {
+    const { drawn } = this.draft;
+    this.pads.forEach((pad, i) => pad.put(drawn[SIGNS[i]] ?? signs[i]));
+    this.table.open(scene, picture, drawn[HAND] ? (drawn[HAND][0] ?? null) : hand);
+    this.tell();
+    this.continue();
   }
 
   /** Begin the demonstration again with nothing drawn. */
@@ -86,17 +102,12 @@ export class Teach {
     this.restore();
   }
 
-  signed(byHand) {
+  /** The strokes at a place are others, or gone; a sign by hand may make it the turn of built-in people. */
+  drew(place, strokes, byHand = false) {
     if (this.showing) return;
-    this.draft.keep(this.pads.map((pad) => pad.parts), this.table.hand);
+    this.draft.keep({ [place]: strokes });
     this.tell();
     if (byHand) this.continue();
-  }
-
-  moved() {
-    if (this.showing) return;
-    this.draft.keep(this.pads.map((pad) => pad.parts), this.table.hand);
-    this.tell();
   }
 
   /** Show what is to be done, and what can be done. */
@@ -112,28 +123,20 @@ export class Teach {
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
     byId("teach-prompt").textContent = sentence(session, prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
-    return this.choices();
+    byId("teach-choices").replaceChildren(...(this.wish ? [button("Back to the list", () => this.follow(null))] : []));
+    return undefined;
   }
 
   /** Show what is being played. */
   tellShown(number) {
-    const { prompt, by } = store.session.demonstrations[number];
-    const { language } = store.session;
     this.teachIt.disabled = true;
-    byId("teach-count").textContent = `Demonstration ${number}${by ? `, by ${by}` : ""}`;
-    byId("teach-prompt").textContent = prompt && language ? promptText(language, prompt) : "";
+    [byId("teach-count").textContent, byId("teach-prompt").textContent] = shownTexts(store.session, number);
     byId("teach-examples").replaceChildren();
-  }
-
-  choices() {
-    const host = byId("teach-choices");
-    const back = () => button("Back to the list", () => this.follow(null));
-    host.replaceChildren(...(this.wish ? [back()] : []));
   }
 
   /** Demonstrate what the robot would like to see. */
   follow(wish) {
-    if (this.draft.number !== null) this.leaveRedraw();
+    if (this.draft.number !== null) this.begin();
     this.wish = wish;
     if (wish) this.roles.mine();
     this.tell();
@@ -146,6 +149,7 @@ export class Teach {
     if (this.busy || signs.includes(null) || !hand) return;
     this.setBusy(true);
     const body = { signs, hand, prompted: this.wish === null, by: this.roles.by };
+    await this.draft.flush(); // or the last stroke would come after the demonstration, and be one of the next
     const done = await attempt(() =>
       change((revision) => {
         const whole = { revision, ...body };
@@ -158,8 +162,7 @@ export class Teach {
 
   taught(session, number) {
     this.wish = null;
-    this.draft.clear();
-    this.draft.place(session);
+    this.draft.reset();
     this.restore();
     const which = number ?? session.demonstrations.length - 1;
     select(which);
@@ -178,7 +181,7 @@ export class Teach {
   }
 
   async remove(number) {
-    if (this.draft.number !== null) this.leaveRedraw();
+    if (this.draft.number !== null) this.begin();
     await attempt(() => change((revision) => api.remove(path(`demonstrations/${number}?revision=${revision}`))));
     whisper(`Demonstration ${number} is deleted; undo brings it back.`);
   }
@@ -188,14 +191,9 @@ export class Teach {
     if (!shown) return;
     this.wish = null;
     this.roles.mine();
-    this.draft.redraw(shown, fitted);
+    this.draft.reset(number);
     this.restore();
     byId("teach-prompt").scrollIntoView({ block: "nearest" });
-  }
-
-  leaveRedraw() {
-    this.draft.clear();
-    this.restore();
   }
 
   /** Let built-in people do their part, if it is their turn. */
@@ -214,7 +212,8 @@ export class Teach {
   }
 
   async act(prompt) {
-    const same = () => store.session.next.prompt === prompt;
+    const { id, revision } = store.session;
+    const same = () => store.session.id === id && store.session.revision === revision;
     const over = this.roles.signs === BUILT_IN && this.roles.movement === BUILT_IN && store.session.next.left === 0;
     if (over) return this.roles.mine();
     if (this.roles.signs === BUILT_IN && !this.pads.some((pad) => pad.parts.length)) {

@@ -52,6 +52,13 @@ export class TeachTable {
     this.stage.paint();
   }
 
+  /** Show another movement, or none, on the same table. */
+  put(hand) {
+    this.turn += 1;
+    this.hand = hand;
+    this.stage.paint();
+  }
+
   paint(pen) {
     if (!this.scene) return;
     if (!this.stage.photographed) drawObjects(pen, this.scene.objects);

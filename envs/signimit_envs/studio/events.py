@@ -21,6 +21,8 @@ from signimit.validation import finite_array
 from signimit_envs.scene import OBJECT_COUNTS
 
 Signs = tuple[Stroke, ...]
+QUESTION = "question"
+PLACES = ("sign 1", "sign 2", "hand", QUESTION)  # where a stroke of a draft can be; the last is the first sign in Ask
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +111,19 @@ class Deleted:
 
 
 @dataclass(frozen=True, eq=False)
+class Drafted:
+    """Somebody drew a part of what is not sent yet, or cleared it.
+
+    Attributes:
+        number: Of the demonstration that is drawn again; none for a new one.
+        drawn: What is drawn now at places out of `PLACES`, one stroke for each time that the pen was down.
+    """
+
+    number: int | None
+    drawn: Mapping[str, Signs]
+
+
+@dataclass(frozen=True, eq=False)
 class Undone:
     """The last edit was taken back."""
 
@@ -152,10 +167,10 @@ class Judged:
     good: bool | None
 
 
-Event = Created | Demonstrated | Redrawn | Deleted | Undone | Redone | Titled | Asked | Judged
+Event = Created | Demonstrated | Redrawn | Deleted | Drafted | Undone | Redone | Titled | Asked | Judged
 _KINDS: Mapping[str, type[Event]] = {
     kind.__name__.lower(): kind
-    for kind in (Created, Demonstrated, Redrawn, Deleted, Undone, Redone, Titled, Asked, Judged)
+    for kind in (Created, Demonstrated, Redrawn, Deleted, Drafted, Undone, Redone, Titled, Asked, Judged)
 }
 
 
@@ -191,6 +206,8 @@ def _plain(value: Any) -> Any:
         return stroke_to_json(value)
     if isinstance(value, Shown):
         return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, Mapping):
+        return {name: _plain(item) for name, item in value.items()}
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, Request):
@@ -204,6 +221,8 @@ def _restored(name: str, value: Any) -> Any:
         return _shown(value) if isinstance(value, Mapping) else tuple(_shown(item) for item in value)
     if name == "signs":
         return _strokes(value)
+    if name == "drawn":
+        return {place: _strokes(strokes) for place, strokes in value.items()}
     if name == "request":
         return _request(value)
     return value

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 
 from signimit.exceptions import InvalidInputError
 from signimit_envs.studio.events import (
+    PLACES,
+    QUESTION,
     Asked,
     Created,
     Deleted,
     Demonstrated,
+    Drafted,
     Event,
     Judged,
     Redone,
     Redrawn,
     Shown,
+    Signs,
     Titled,
     Undone,
 )
@@ -33,6 +37,23 @@ class Given:
 
 
 @dataclass(frozen=True, eq=False)
+class Draft:
+    """What is drawn and not sent yet.
+
+    Attributes:
+        number: Of the demonstration that is drawn again; none for a new one.
+        drawn: Strokes at each place where somebody drew or cleared something.
+    """
+
+    number: int | None = None
+    drawn: Mapping[str, Signs] = field(default_factory=dict)
+
+    def question_only(self) -> Draft:
+        """Return what is left of it once the demonstration is taught, or its table is another."""
+        return Draft(None, {place: strokes for place, strokes in self.drawn.items() if place == QUESTION})
+
+
+@dataclass(frozen=True, eq=False)
 class History:
     """A session at one moment.
 
@@ -41,7 +62,8 @@ class History:
         title: What it is called now.
         shown: The demonstrations that count now.
         answers: What the arm was asked.
-        revision: How many edits there were; asking and judging are none.
+        draft: What is drawn and not sent yet; any edit of the demonstrations ends it, as the next table is another.
+        revision: How many edits there were; drafts, asking and judging are none.
         events: How many events there were.
         past: What undo brings back, the latest last.
         future: What redo brings back, the next last.
@@ -51,6 +73,7 @@ class History:
     title: str
     shown: Demonstrations = ()
     answers: tuple[Given, ...] = ()
+    draft: Draft = field(default_factory=Draft)
     revision: int = 0
     events: int = 1
     past: tuple[Demonstrations, ...] = ()
@@ -76,13 +99,20 @@ def after(history: History, event: Event) -> History:
     Raises:
         InvalidInputError: If that cannot happen now.
     """
-    return replace(_after(history, event), events=history.events + 1)
+    following = replace(_after(history, event), events=history.events + 1)
+    if following.shown is history.shown:
+        return following
+    return replace(following, draft=history.draft.question_only())
 
 
 def _after(history: History, event: Event) -> History:
     match event:
         case Asked():
-            return replace(history, answers=(*history.answers, Given(event)))
+            drawn = {place: strokes for place, strokes in history.draft.drawn.items() if place != QUESTION}
+            draft = replace(history.draft, drawn=drawn)
+            return replace(history, answers=(*history.answers, Given(event)), draft=draft)
+        case Drafted():
+            return replace(history, draft=_drafted(history, event))
         case Judged(number, good):
             _check_number(number, len(history.answers), "answer")
             answers = list(history.answers)
@@ -98,6 +128,16 @@ def _after(history: History, event: Event) -> History:
             raise InvalidInputError("session", "one beginning", "another")
         case _:
             return _edited(history, event)
+
+
+def _drafted(history: History, event: Drafted) -> Draft:
+    """Return the draft after another stroke: the last at a place counts."""
+    if not set(event.drawn) <= set(PLACES):
+        raise InvalidInputError("draft", f"some of {', '.join(PLACES)}", f"{list(event.drawn)!r:.80}")
+    if event.number is not None:
+        _check_number(event.number, len(history.shown), "demonstration")
+    draft = history.draft if event.number == history.draft.number else history.draft.question_only()
+    return Draft(event.number, {**draft.drawn, **event.drawn})
 
 
 def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> History:

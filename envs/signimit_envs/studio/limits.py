@@ -18,6 +18,7 @@ class Limits:
         reach: Distance of objects and hands from the table's middle along an axis, m.
         message: Bytes of a message on the socket.
         points: Points of a stroke.
+        lifts: Strokes of one sign, between which the pen was lifted.
         seconds: Length of a stroke, s.
         coordinate: Size of a coordinate of a sign, any unit.
         demonstrations: Demonstrations in a session.
@@ -41,6 +42,7 @@ class Limits:
     reach: float = 2.0
     message: int = 1024
     points: int = 5000
+    lifts: int = 50
     seconds: float = 600.0
     coordinate: float = 1e6
     demonstrations: int = 100

@@ -13,7 +13,7 @@ from signimit.formats.recording import spread_ties
 from signimit.languages import Request
 from signimit.strokes import Stroke
 from signimit_envs.scene import OBJECT_COUNTS, TABLE
-from signimit_envs.studio.events import Signs
+from signimit_envs.studio.events import Drafted, Signs
 from signimit_envs.studio.limits import LIMITS
 
 _WORDS = 2
@@ -59,6 +59,8 @@ class StrokeMessage(Strict):
         return stroke
 
 
+Place = Literal["sign 1", "sign 2", "hand", "question"]
+Drawing = Annotated[list[StrokeMessage], Field(max_length=LIMITS.lifts)]
 Utterance = Annotated[list[StrokeMessage], Field(min_length=_WORDS, max_length=_WORDS)]
 
 
@@ -108,10 +110,34 @@ class NewDemonstration(Revised):
         Raises:
             InvalidInputError: If it is none, or leaves the table.
         """
-        stroke = self.hand.stroke("hand")
-        if (np.abs(stroke.points) > TABLE + 0.2).any():
-            raise InvalidInputError("hand", "positions over the table, m", "others")
-        return stroke
+        return _over_table(self.hand.stroke("hand"))
+
+
+class NewDraft(Revised):
+    """PUT draft."""
+
+    number: Number | None = None
+    drawn: Annotated[dict[Place, Drawing], Field(min_length=1)]
+
+    def event(self) -> Drafted:
+        """Return the change of the draft.
+
+        Raises:
+            InvalidInputError: If a stroke is none, or there are too many or too long ones at a place.
+        """
+        strokes = {place: tuple(part.stroke(place) for part in parts) for place, parts in self.drawn.items()}
+        for place, parts in strokes.items():
+            if sum(len(part.times) for part in parts) > LIMITS.points:
+                raise InvalidInputError(place, f"at most {LIMITS.points} points", "more")
+        for part in strokes.get("hand", ()):
+            _over_table(part)
+        return Drafted(self.number, strokes)
+
+
+def _over_table(hand: Stroke) -> Stroke:
+    if (np.abs(hand.points) > TABLE + 0.2).any():
+        raise InvalidInputError("hand", "positions over the table, m", "others")
+    return hand
 
 
 class RequestMessage(Strict):

@@ -80,7 +80,7 @@ class OpenSession:
         self._learner.submit(self._prepare_policies, self._understood)
 
     async def edit(self, revision: int, event: Event) -> None:
-        """Change the demonstrations or the title; goes on to the end even if whoever asked for it goes away.
+        """Change the demonstrations, the draft or the title; goes on to the end even if whoever asked for it goes away.
 
         Args:
             revision: What the page last saw.

@@ -25,6 +25,7 @@ from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.messages import (
     Merge,
     NewDemonstration,
+    NewDraft,
     NewSession,
     NewTitle,
     People,
@@ -89,6 +90,15 @@ async def redraw(studio: TheStudio, session_id: SessionId, number: Number, body:
     prompt = old.prompt if body.prompted else None
     again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), prompt, body.by)
     return await _edited(studio, session, body.revision, Redrawn(number, again))
+
+
+@routes.put("/{session_id}/draft")
+async def draft(studio: TheStudio, session_id: SessionId, body: NewDraft) -> Json:
+    """Keep what is drawn of a demonstration that is not sent yet, at the places that are named."""
+    session = await studio.open(session_id)
+    if body.number is not None:
+        _existing(session, body.number)
+    return await _edited(studio, session, body.revision, body.event())
 
 
 @routes.delete("/{session_id}/demonstrations/{number}")

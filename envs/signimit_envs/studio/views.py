@@ -10,7 +10,7 @@ from signimit.languages import Language, Request
 from signimit.summary import object_name
 from signimit_envs.studio.belief import sign_json, understood_text
 from signimit_envs.studio.events import Shown, stroke_to_json
-from signimit_envs.studio.history import Given
+from signimit_envs.studio.history import Draft, Given
 from signimit_envs.studio.live_state import LiveState
 from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.prompts import get_language, next_request, prompt_text, sign_labels
@@ -18,7 +18,7 @@ from signimit_envs.studio.stand_ins import examples
 
 
 def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
-    """Return all of a session but its strokes."""
+    """Return all of a session but the strokes of its demonstrations and answers."""
     history, understood = session.history, session.understood
     created, language = history.created, get_language(history.created.language)
     return {
@@ -31,6 +31,7 @@ def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
         "objects": created.objects,
         "demonstrations": [_listed_json(session, number, shown) for number, shown in enumerate(history.shown)],
         "answers": [answer_json(session, number, given, state) for number, given in enumerate(history.answers)],
+        "draft": _draft_json(history.draft),
         "can_undo": bool(history.past),
         "can_redo": bool(history.future),
         "next": {
@@ -82,6 +83,11 @@ def prompt_json(session: OpenSession, request: Request) -> dict[str, Any]:
         "examples": [sign_json(sign) for sign in signs],
         "drawing": sign_json(drawing),
     }
+
+
+def _draft_json(draft: Draft) -> dict[str, Any]:
+    drawn = {place: [stroke_to_json(stroke) for stroke in strokes] for place, strokes in draft.drawn.items()}
+    return {"number": draft.number, "drawn": drawn}
 
 
 def _next_json(session: OpenSession, language: Language | None) -> dict[str, Any]:

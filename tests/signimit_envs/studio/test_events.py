@@ -20,6 +20,7 @@ from signimit_envs.studio.events import (
     Created,
     Deleted,
     Demonstrated,
+    Drafted,
     Event,
     Judged,
     Redone,
@@ -44,6 +45,8 @@ def _same(a: Any, b: Any) -> bool:
         return np.array_equal(a.points, b.points) and np.array_equal(a.times, b.times)
     if isinstance(a, np.ndarray):
         return np.array_equal(a, b)
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(_same(a[name], b[name]) for name in a)
     if isinstance(a, tuple):
         return len(a) == len(b) and all(map(_same, a, b))
     if dataclasses.is_dataclass(a):
@@ -58,6 +61,8 @@ def test_every_event_comes_back_from_json_to_the_last_bit(shown: Callable[[], Sh
         Demonstrated((one, shown())),
         Redrawn(1, shown()),
         Deleted(0),
+        Drafted(None, {"sign 1": one.signs, "hand": ()}),
+        Drafted(1, {"question": one.signs[:1]}),
         Undone(),
         Redone(),
         Titled("another"),

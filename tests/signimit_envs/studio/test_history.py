@@ -16,6 +16,7 @@ from signimit_envs.studio.events import (
     Created,
     Deleted,
     Demonstrated,
+    Drafted,
     Event,
     Judged,
     Redone,
@@ -50,6 +51,37 @@ def test_an_edit_after_an_undo_leaves_nothing_to_redo(shown: Make) -> None:
     history = retell([BEGINNING, Demonstrated((shown(),)), Undone(), Demonstrated((shown(),))])
     with pytest.raises(InvalidInputError, match="redo: expected something that was undone"):
         after(history, Redone())
+
+
+def test_the_last_stroke_at_a_place_of_a_draft_counts(shown: Make) -> None:
+    (a, b), (c, _) = shown().signs, shown().signs
+    history = retell([BEGINNING, Drafted(None, {"sign 1": (a,), "hand": (b,)}), Drafted(None, {"sign 1": (c,)})])
+    assert history.draft.drawn == {"sign 1": (c,), "hand": (b,)}
+    assert (history.revision, history.events) == (0, 3)
+    assert after(history, Titled("another")).draft is history.draft
+
+
+def test_a_draft_of_another_demonstration_begins_with_nothing(shown: Make) -> None:
+    a, b = shown().signs
+    history = retell([BEGINNING, Demonstrated((shown(),)), Drafted(None, {"sign 1": (a,)}), Drafted(0, {"hand": (b,)})])
+    assert (history.draft.number, history.draft.drawn) == (0, {"hand": (b,)})
+
+
+def test_an_edit_of_the_demonstrations_ends_the_draft_and_asking_ends_the_question(shown: Make) -> None:
+    a, b = shown().signs
+    draft = Drafted(None, {"sign 1": (a,), "question": (b,)})
+    edits: list[Event] = [Demonstrated((shown(),)), Redrawn(0, shown()), Deleted(1), Undone()]
+    for edit in edits:
+        history = retell([BEGINNING, Demonstrated((shown(), shown())), draft, edit])
+        assert history.draft.drawn == {"question": (b,)}
+    history = retell([BEGINNING, Demonstrated((shown(),)), draft, Asked((b, b), 0, 0, 1.0)])
+    assert history.draft.drawn == {"sign 1": (a,)}
+
+
+@pytest.mark.parametrize("event", [Drafted(1, {"hand": ()}), Drafted(None, {"foot": ()})])
+def test_a_draft_of_what_is_not_there_is_refused(event: Event, shown: Make) -> None:
+    with pytest.raises(InvalidInputError, match=r"demonstration: expected a number below 1|draft: expected some of"):
+        retell([BEGINNING, Demonstrated((shown(),)), event])
 
 
 def test_nothing_can_be_undone_at_the_beginning() -> None:
