@@ -30,20 +30,22 @@ ARGUMENTS = (
     "--disable-sync",
     "--no-first-run",
     "--disable-quic",
+    "--disable-frame-rate-limit",  # each input event waits for a frame
+    "--disable-gpu-vsync",
     *(["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []),
 )
 PATIENCE = 30_000  # ms, on a busy machine
-SIGN_POINTS, MOVEMENT_POINTS = 12, 36
+SIGN_POINTS, MOVEMENT_POINTS = 10, 30
 FINGER = 7  # its number, on the touch screen
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     with running_studio(StudioPlan(folder=tmp_path_factory.mktemp("studio"))) as where:
         yield where
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def browser() -> Iterator[Any]:
     if CHROMIUM is None:
         pytest.skip("there is no chromium on this machine")

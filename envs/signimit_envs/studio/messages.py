@@ -125,7 +125,9 @@ class NewDraft(Revised):
         Raises:
             InvalidInputError: If a stroke is none, or there are too many or too long ones at a place.
         """
-        strokes = {place: tuple(part.stroke(place) for part in parts) for place, parts in self.drawn.items()}
+        strokes: dict[str, Signs] = {
+            place: tuple(part.stroke(place) for part in parts) for place, parts in self.drawn.items()
+        }
         for place, parts in strokes.items():
             if sum(len(part.times) for part in parts) > LIMITS.points:
                 raise InvalidInputError(place, f"at most {LIMITS.points} points", "more")

@@ -25,7 +25,13 @@ def _drawn(page: Any, session: Json) -> Json:
 
 def test_every_page_sees_the_last_stroke_at_each_place(page: Any, session: Json) -> None:
     assert session["draft"] == NOTHING
-    for drawn in ({"sign 1": [SIGN, OTHER]}, {"sign 2": [SIGN]}, {"sign 2": [OTHER], "hand": [OTHER]}, {"hand": []}):
+    strokes: list[Json] = [
+        {"sign 1": [SIGN, OTHER]},
+        {"sign 2": [SIGN]},
+        {"sign 2": [OTHER], "hand": [OTHER]},
+        {"hand": []},
+    ]
+    for drawn in strokes:
         answer = _keep(page, session, drawn)
         assert answer.status_code == 200, answer.text
     assert _drawn(page, session) == {"sign 1": [SIGN, OTHER], "sign 2": [OTHER], "hand": []}
