@@ -132,7 +132,5 @@ def _draw_orders(panel: Axes, reasons: Reasons) -> None:
         panel.text(loss, y, "  chosen" if y == 0 else f"  {loss:.1f}", va="center", fontsize=8)
     panel.set_yticks(range(len(names)), names, fontsize=8)
     panel.invert_yaxis()
-    panel.set(
-        xlabel="nats less explained than by the chosen word order", xlim=(0, 1.15 * max(losses) + 1)
-    )
+    panel.set(xlabel="nats less explained than by the chosen word order", xlim=(0, 1.15 * max(losses) + 1))
     panel.spines[["top", "right"]].set_visible(False)
