@@ -35,7 +35,7 @@ ARGUMENTS = (
     *(["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []),
 )
 PATIENCE = 30_000  # ms, on a busy machine
-SIGN_POINTS, MOVEMENT_POINTS = 10, 30
+SIGN_POINTS, MOVEMENT_POINTS = 8, 24
 FINGER = 7  # its number, on the touch screen
 
 

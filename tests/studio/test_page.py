@@ -56,7 +56,7 @@ def test_what_is_half_drawn_is_there_after_a_reload_and_in_a_new_tab_after_a_kil
         second.page.locator("#teach-it").click()
         second.see("#teach-count", "Demonstration 2")
         signs = second.api(f"sessions/{name}/demonstrations/1")["signs"]
-        assert [len(sign["points"]) for sign in signs] == [10, 10]
+        assert [len(sign["points"]) for sign in signs] == [8, 8]
         expect(drawn(second, 1)).to_have_count(0)
         second.page.locator("#tab-ask").click()
         expect(second.page.locator("#ask-pads canvas[aria-label='First sign: drawn']")).to_be_visible()
@@ -87,7 +87,7 @@ def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(
     visitor.see("#teach-count", "Demonstration 3")
     after = visitor.api(f"sessions/{visitor.session()['id']}/demonstrations/1")
     assert after["hand"]["points"] == before["hand"]["points"]
-    assert len(after["signs"][0]["points"]) == 10 != len(before["signs"][0]["points"])
+    assert len(after["signs"][0]["points"]) == 8 != len(before["signs"][0]["points"])
 
 
 def test_taps_far_starts_and_cancelled_fingers_draw_nothing(visit: Visit, new_session: NewSession) -> None:

@@ -75,15 +75,25 @@ def page(address: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[Page]:
     somebody.browser.close()
 
 
-@pytest.fixture(scope="package")
-def taught_id(address: str) -> str:
-    """Name of a session with all twelve demonstrations of the paper's language; do not edit it."""
+def _taught(address: str, seed: int, count: int) -> str:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("signimit_envs.studio.guard.Bucket.take", lambda self: True)
         somebody = Page(address)
-        session = somebody.teach(somebody.post("sessions", {"seed": 7, "title": "taught"}), 12)
+        session = somebody.teach(somebody.post("sessions", {"seed": seed, "title": "taught"}), count)
         somebody.browser.close()
     return str(session["id"])
+
+
+@pytest.fixture(scope="package")
+def taught_id(address: str) -> str:
+    """Name of a session with all twelve demonstrations of the paper's language; do not edit it."""
+    return _taught(address, 7, 12)
+
+
+@pytest.fixture(scope="package")
+def pair_id(address: str) -> str:
+    """Name of a session with two demonstrations; do not edit it."""
+    return _taught(address, 3, 2)
 
 
 @pytest.fixture
