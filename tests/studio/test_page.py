@@ -134,8 +134,13 @@ def test_two_tabs_do_not_corrupt_one_session(visit: Visit, new_session: NewSessi
     second.see("#teach-count", "Demonstration 2")
     expect(second.page.locator("#teach-it")).to_be_disabled()
     assert len(second.session()["demonstrations"]) == 2
-    person.demonstrate(second, second.session())
+    person.speak(second, "teach", second.session()["next"]["prompt"])
+    expect(drawn(first, 2)).to_be_visible()
+    second.hand(person.path(second.session()))
+    second.page.locator("#teach-it").click()
     first.see("#teach-count", "Demonstration 3")
+    expect(drawn(first, 2)).to_have_count(0)
+    expect(first.page.locator("#alert")).to_be_hidden()
     assert any("409" in problem for problem in second.problems)
     second.problems.clear()  # the browser reports each refused request
 

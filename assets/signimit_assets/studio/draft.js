@@ -19,14 +19,15 @@ export class Draft {
     this.id = id;
     this.table = null; // what tells one table from the next
     this.told = { number: null, drawn: {} }; // the draft that the server told last
-    this.unsent = {};
     this.sent = Promise.resolve();
     this.reset();
   }
 
+  /** Begin with nothing drawn, or with a demonstration that is drawn again. */
   reset(number = null) {
-    this.number = number; // of the demonstration that is drawn again
+    this.number = number;
     this.drawn = {}; // strokes by their places
+    this.unsent = {};
   }
 
   /** Follow the session; tells the places where something else is drawn now, or null if all of it is another. */
@@ -36,10 +37,9 @@ export class Draft {
     const moved = table !== this.table;
     const turned = draft.number !== told.number && draft.number !== this.number;
     Object.assign(this, { revision, table, told: draft });
-    if (moved) this.unsent = {};
     if (moved || turned) {
       this.reset(draft.number);
-      Object.assign(this.drawn, draft.drawn, this.unsent);
+      Object.assign(this.drawn, draft.drawn);
       return null;
     }
     const known = draft.number === told.number ? told : this;
@@ -79,7 +79,8 @@ export class Draft {
       if (store.session.id === this.id) accept(session);
     } catch (problem) {
       if (problem.status === STALE && store.session.id === this.id) await refresh().catch(complain);
-      if (table === this.table && problem.status !== UNUSABLE) this.unsent = { ...unsent, ...this.unsent };
+      const same = table === this.table && number === this.number;
+      if (same && problem.status !== UNUSABLE) this.unsent = { ...unsent, ...this.unsent };
       if (revision === this.revision) complain(problem);
       else await this.send();
     }

@@ -18,6 +18,7 @@ export class Teach {
   constructor(replay) {
     this.draft = null;
     this.busy = false;
+    this.mine = false; // whether something of what is drawn was drawn in this page
     this.wish = null;
     this.showing = 0; // which demonstration is played here, from 1; 0 for none
     this.pads = SIGNS.map((place, i) => new SignPad(i + 1, (byHand) => this.drew(place, this.pads[i].parts, byHand)));
@@ -56,7 +57,7 @@ export class Teach {
     this.undo.disabled = !session.can_undo;
     this.redo.disabled = !session.can_redo;
     const places = this.draft.follow(session);
-    if (places === null && !other && !this.busy && this.drawn) complain("The table changed, as this session was changed elsewhere. Please draw again.");
+    if (places === null && !other && !this.busy && this.mine) complain("The table changed, as this session was changed elsewhere. Please draw again.");
     if (places === null) this.restore();
     else this.takeUp(places);
   }
@@ -68,10 +69,6 @@ export class Teach {
     this.pads.forEach((pad, i) => places.includes(SIGNS[i]) && !pad.drawing && pad.put(drawn[SIGNS[i]] ?? []));
     if (places.includes(HAND) && !this.table.drawing) this.table.put(drawn[HAND]?.[0] ?? null);
     return this.tell();
-  }
-
-  get drawn() {
-    return this.pads.some((pad) => pad.parts.length) || this.table.hand !== null;
   }
 
   /** Show the table, and what is drawn on it already. */
@@ -90,6 +87,7 @@ export class Teach {
 
   open(scene, picture, signs, hand) {
     const { drawn } = this.draft;
+    this.mine = false;
     this.pads.forEach((pad, i) => pad.put(drawn[SIGNS[i]] ?? signs[i]));
     this.table.open(scene, picture, drawn[HAND] ? (drawn[HAND][0] ?? null) : hand);
     this.tell();
@@ -105,6 +103,7 @@ export class Teach {
   /** The strokes at a place are others, or gone; a sign by hand may make it the turn of built-in people. */
   drew(place, strokes, byHand = false) {
     if (this.showing) return;
+    this.mine = true;
     this.draft.keep({ [place]: strokes });
     this.tell();
     if (byHand) this.continue();
