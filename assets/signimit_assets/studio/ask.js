@@ -3,10 +3,10 @@
 import * as api from "./api.js";
 import { AskTable } from "./asktable.js";
 import { attempt, button, byId, capital, make, percent } from "./dom.js";
-import { SignPad } from "./pad.js";
+import { SignPad, fitted } from "./pad.js";
 import { thumbPicture } from "./pictures.js";
 import { QUESTION } from "./draft.js";
-import { accept, objectName, path, people, refresh, store, subscribe } from "./store.js";
+import { accept, inBackground, objectName, path, people, refresh, store, subscribe } from "./store.js";
 
 const INVITATION = "Draw two signs; the arm answers as the second one is done.";
 const UNTAUGHT = "The robot has not been taught anything yet. Demonstrate something first, in Teach.";
@@ -22,6 +22,7 @@ export class Ask {
     this.keep = keep;
     this.request = null;
     this.asked = null;
+    this.asking = false;
     this.table = new AskTable(byId("ask-stage"), live, (header) => this.framed(header));
     this.pads = [1, 2].map((number) => new SignPad(number, (byHand) => this.signed(number, byHand), () => this.started(number)));
     byId("ask-pads").append(...this.pads.map((pad) => pad.element));
@@ -91,8 +92,9 @@ export class Ask {
     this.ask();
   }
 
-  ask() {
-    return attempt(async () => {
+  async ask() {
+    this.asking = true;
+    await attempt(async () => {
       const signs = this.pads.map((pad) => pad.stroke);
       if (this.table.header && this.table.header.session !== store.session.id) await this.takeTable();
       const body = this.request ? { signs, request: this.request } : { signs };
@@ -100,6 +102,7 @@ export class Ask {
       this.tell();
       await refresh();
     });
+    this.asking = false;
   }
 
   /** Let the built-in interactant ask for something. */
@@ -117,10 +120,19 @@ export class Ask {
     byId("ask-hint").textContent = strange
       ? "Another session has the table; it comes here when you ask, or with New scene."
       : "Drag the objects; flick the hand to shove it.";
-    if (!strange && header.text && header.answer !== this.asked?.number) {
-      this.asked = store.session.answers[header.answer] ?? this.asked;
-      this.tell();
-    }
+    if (!strange && header.text && !this.asking && header.answer !== this.asked?.number) this.adopt(store.session.answers[header.answer]);
+  }
+
+  /** Show an answer that was asked for elsewhere, and its signs, unless a person has begun to draw others. */
+  adopt(answer) {
+    if (!answer) return; // the session with it is on its way
+    this.asked = answer;
+    this.tell();
+    inBackground(async () => {
+      const { signs } = await api.get(path(`answers/${answer.number}`));
+      const free = !store.session.draft.drawn[QUESTION]?.length && !this.pads.some((pad) => pad.drawing);
+      if (free && this.asked === answer) this.pads.forEach((pad, i) => pad.put([fitted(signs[i])]));
+    });
   }
 
   tell() {
