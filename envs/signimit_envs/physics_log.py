@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from threading import Lock
 from types import TracebackType
+from typing import ClassVar
 
 import mujoco
 
@@ -10,21 +12,28 @@ import mujoco
 class QuietLog:
     """Context in which MuJoCo neither prints warnings nor writes MUJOCO_LOG.TXT.
 
-    It is entered in every control step, so both settings are read once, when it is made; after the block MuJoCo logs as
-    it did then.
+    MuJoCo has one setting for the whole process. The first that enters keeps the usual one and the last that leaves
+    brings it back, so that environments which step in several threads do not take each other's silence for it.
     """
 
-    def __init__(self) -> None:
-        """Read how MuJoCo logs."""
-        self._usual, self._silent = mujoco.MjLogConfig.get(), mujoco.MjLogConfig.get()
-        self._silent.logto_file = self._silent.logto_console = False
+    _lock: ClassVar[Lock] = Lock()
+    _inside: ClassVar[int] = 0
+    _usual: ClassVar[mujoco.MjLogConfig]
 
     def __enter__(self) -> None:
         """Silence MuJoCo."""
-        self._silent.set()
+        with self._lock:
+            if not QuietLog._inside:
+                QuietLog._usual, silent = mujoco.MjLogConfig.get(), mujoco.MjLogConfig.get()
+                silent.logto_file = silent.logto_console = False
+                silent.set()
+            QuietLog._inside += 1
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Let MuJoCo log as before."""
-        self._usual.set()
+        """Let MuJoCo log as before, once nobody is inside."""
+        with self._lock:
+            QuietLog._inside -= 1
+            if not QuietLog._inside:
+                QuietLog._usual.set()
