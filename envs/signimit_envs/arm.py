@@ -40,7 +40,6 @@ class Arm:
     def place(self, objects: NDArray[np.float64], joints: NDArray[np.float64]) -> None:
         """Put objects, shape (O, 2), m, and a resting arm, joint angles of shape (3,), rad, in their places."""
         self._objects, self._last_joints = objects, joints.tolist()
-        self._quiet_log = QuietLog()
         self._put()
 
     def track(self, velocities: NDArray[np.float64]) -> str:
