@@ -36,7 +36,6 @@ def _by_definition(session: BenchmarkSession, command: Any) -> NDArray[np.float6
 
 
 def test_pairs_that_were_shown_are_obeyed_more_often_than_by_chance_and_no_other() -> None:
-    records = [run_task(Task(refer_to("clone-knn"), "paper", seed)) for seed in range(2)]
-    unseen = [run_task(Task(refer_to("clone-knn"), "unseen-pair", 0))]
-    assert sum(sum(r["obeyed"]) for r in records) > 18 / 9  # chance asks one of nine
-    assert sum(sum(r["obeyed"]) for r in unseen) == 0
+    shown, unseen = (run_task(Task(refer_to("clone-knn"), split, 0)) for split in ("paper", "unseen-pair"))
+    assert sum(shown["obeyed"]) > 1  # chance asks one of nine
+    assert sum(unseen["obeyed"]) == 0
