@@ -15,13 +15,13 @@ import numpy as np
 from signimit_envs.reproduction import hand_velocities
 from signimit_envs.scene import CONTROL_RATE, WORKSPACE, object_bodies
 from signimit_envs.studio.live_state import Array, Errand, LiveState, TrackPart
+from signimit_envs.studio.pace import Pace
 from signimit_envs.studio.push import Push
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 ANSWER_SECONDS = 60.0  # after which the arm rests
 TRAIL_SECONDS, TRAIL_STRIDE = 8.0, 2  # of the past; control steps between its points
 PART_STEPS = CONTROL_RATE  # of a track that are handed over at once
-_FARTHEST_BEHIND = 0.5  # s; a thread that is held up longer does not catch up
 _log = logging.getLogger(__name__)
 
 
@@ -38,7 +38,8 @@ class LiveArm:
         self._inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._live, name="live arm", daemon=True)
-        self._steps, self._lost = 0, 0.0
+        self._steps, self._born = 0, time.perf_counter()
+        self._pace = Pace(1.0 / CONTROL_RATE, self._born)
         self._session: str | None = None
         self._errand: Errand | None = None
         self._push: Push | None = None
@@ -108,31 +109,28 @@ class LiveArm:
             self._remember()
 
     def _live(self) -> None:
-        due = time.perf_counter()
+        self._born = time.perf_counter()
+        self._pace = Pace(1.0 / CONTROL_RATE, self._born)
         while not self._stop.is_set():
             try:
                 self.step()
             except Exception:  # whatever it is, an arm that rests is better than a thread that died
                 _log.exception("the arm failed and rests")
                 self._errand = None
-            due += 1.0 / CONTROL_RATE
-            early = due - time.perf_counter()
-            if early > 0:
-                self._stop.wait(early)
-            elif -early > _FARTHEST_BEHIND:
-                self._lost, due = self._lost - early, due - early
+            self._stop.wait(self._pace.wait(time.perf_counter()))
 
     def _look(self, observation: dict[str, Any]) -> None:
         self._state = LiveState(
             session=self._session,
             errand=self._errand,
             time=self._steps / CONTROL_RATE,
+            clock=time.perf_counter() - self._born,
             joints=observation["joints"],
             hand=observation["hand"],
             objects=self._objects,
             trail=tuple(self._trail),
             shoved=self._push is not None,
-            lost=self._lost,
+            lost=self._pace.lost,
         )
 
     def _remember(self) -> None:

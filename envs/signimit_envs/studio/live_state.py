@@ -57,17 +57,19 @@ class LiveState:
         session: Name of the session whose table it is.
         errand: What the arm does; none while it rests.
         time: Simulated time since the arm came alive, s.
+        clock: Time since then on the clock, s.
         joints: Joint angles, shape (3,), rad.
         hand: Position of the hand, shape (2,), m.
         objects: Object positions, shape (O, 2), m.
         trail: Where the hand was, the latest last.
         shoved: Whether somebody is pushing it.
-        lost: By how much simulated time is behind the clock since the arm came alive, s.
+        lost: How much of that time was never simulated, as the whole machine was held up, s.
     """
 
     session: str | None
     errand: Errand | None
     time: float
+    clock: float
     joints: Array
     hand: Array
     objects: Array

@@ -73,9 +73,9 @@ def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> 
         motion = [_first_motion(page, one, session, attempt) for attempt in range(answers)]
         frames = {1: _frame_rates(page, [one], session, seconds)}
         with closing(Watcher(address)) as two:
-            start, clock = page.ask("GET", "health")["time"], time.perf_counter()
+            start = page.ask("GET", "health")
             frames[2] = _frame_rates(page, [one, two], session, seconds)
-            real_time = (page.ask("GET", "health")["time"] - start) / (time.perf_counter() - clock)
+            real_time = _real_time(start, page.ask("GET", "health"))
     return Speed(motion, update, frames, real_time)
 
 
@@ -86,15 +86,20 @@ def measure_growth(address: str, process: int, minutes: float) -> Growth:
         OSError: If the system does not tell.
     """
     page, begin, before, count = Page(address), time.perf_counter(), 0.0, 0
-    start = page.ask("GET", "health")["time"]
+    start = page.ask("GET", "health")
     with closing(Watcher(address)), closing(Watcher(address)):
         while (elapsed := time.perf_counter() - begin) < 60 * minutes:
             if not before and elapsed > 6 * minutes:
                 before = resident_memory(process)
             _use(page, count)
             count += 1
-        real_time = (page.ask("GET", "health")["time"] - start) / (time.perf_counter() - begin)
+        real_time = _real_time(start, page.ask("GET", "health"))
         return Growth(minutes, page.requests, before, resident_memory(process), real_time)
+
+
+def _real_time(start: Json, end: Json) -> float:
+    """Return simulated time over time between two control steps; the arm tells both times of a step."""
+    return float((end["time"] - start["time"]) / (end["clock"] - start["clock"]))
 
 
 def resident_memory(process: int) -> float:

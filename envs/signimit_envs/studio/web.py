@@ -89,7 +89,8 @@ def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
     @app.get("/api/health", tags=["studio"])
     async def health() -> dict[str, Any]:
         state = studio.arm.state
-        return {"time": state.time, "lost": state.lost, "frames": studio.camera.frames, "viewers": len(studio.viewers)}
+        told = {name: getattr(state, name) for name in ("time", "clock", "lost")}
+        return {**told, "frames": studio.camera.frames, "viewers": len(studio.viewers)}
 
     _serve_page(app)
     return app

@@ -240,7 +240,7 @@ def test_a_waiting_page_wakes_for_a_frame_from_another_thread() -> None:
 def test_states_are_told_in_numbers_that_json_can_say() -> None:
     from signimit_envs.studio.camera import frame_header
 
-    state = LiveState(None, None, 0.1, np.zeros(3), np.ones(2) / 3, np.zeros((3, 2)), ((0.1, 0.2),), False, 0.0)
+    state = LiveState(None, None, 0.1, 0.1, np.zeros(3), np.ones(2) / 3, np.zeros((3, 2)), ((0.1, 0.2),), False, 0.0)
     header = json.loads(json.dumps(frame_header(state), allow_nan=False))
     assert header["hand"] == [0.3333, 0.3333]
     assert header["moving"] is False
