@@ -6,9 +6,9 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit_envs.physics_log import QuietLog
 from signimit_envs.scene import CONTROL_RATE, SUBSTEPS, object_bodies
 
+_DT = 1.0 / CONTROL_RATE
 BLOW_UP = "the physics blew up; the arm was put back where it was before this step"
 
 
@@ -32,10 +32,12 @@ class Arm:
         self.hand = self.data.site_xpos[self._site, :2]
         self._qpos, self._qvel, self._ctrl = self.data.qpos, self.data.qvel, self.data.ctrl
         self._ranges = model.jnt_range.tolist()
-        self._warnings = self.data.warning.number  # mj_resetData clears it
+        self._warnings = self.data.warning.number
+        # MuJoCo logs only the first warning of a kind. It is made to think that it has, since the arm itself says what
+        # went wrong; when the physics blows up, MuJoCo resets the data and with them these numbers.
+        self._already_logged = [1] * len(self._warnings)
         self._objects = np.zeros((len(self.object_bodies), 2))
         self._last_joints: list[float] = self._qpos.tolist()
-        self._quiet_log = QuietLog()
 
     def place(self, objects: NDArray[np.float64], joints: NDArray[np.float64]) -> None:
         """Put objects, shape (O, 2), m, and a resting arm, joint angles of shape (3,), rad, in their places."""
@@ -48,13 +50,14 @@ class Arm:
         Returns:
             What went wrong; empty if nothing. The arm is then put back where it was.
         """
-        self._ctrl[:] = [
-            min(max(velocity, (low - joint) * CONTROL_RATE), (high - joint) * CONTROL_RATE)
-            for velocity, joint, (low, high) in zip(velocities.tolist(), self._qpos.tolist(), self._ranges, strict=True)
-        ]
-        with self._quiet_log:
-            mujoco.mj_step(self.model, self.data, SUBSTEPS)
-        if any(self._warnings.tolist()):
+        self._ctrl[:] = velocities
+        # Few joints are at a limit: to look at each as a number is faster than to clip them all as arrays.
+        targets = zip(velocities.tolist(), self._qpos.tolist(), self._ranges, strict=True)
+        for number, (velocity, joint, (low, high)) in enumerate(targets):
+            if not low <= joint + velocity * _DT <= high:
+                self._ctrl[number] = min(max(velocity, (low - joint) * CONTROL_RATE), (high - joint) * CONTROL_RATE)
+        mujoco.mj_step(self.model, self.data, SUBSTEPS)
+        if self._warnings.tolist() != self._already_logged:
             self._put()
             return BLOW_UP
         # What mj_step leaves behind was computed before its last integration.
@@ -75,6 +78,7 @@ class Arm:
 
     def _put(self) -> None:
         mujoco.mj_resetData(self.model, self.data)
+        self._warnings[:] = self._already_logged
         self.data.qpos[:] = self._last_joints
         self.data.mocap_pos[self.object_bodies, :2] = self._objects
         mujoco.mj_forward(self.model, self.data)

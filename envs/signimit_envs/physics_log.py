@@ -1,4 +1,4 @@
-"""MuJoCo's own log, kept out of the user's folder while the environment watches the warnings itself."""
+"""MuJoCo's own log, kept out of the user's folder while somebody watches the warnings himself."""
 
 from __future__ import annotations
 
