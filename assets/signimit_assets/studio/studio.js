@@ -79,16 +79,22 @@ function show(view) {
   views[view].enter();
 }
 
+/** A person goes to a view; a caption of what plays by itself was for another. */
+function choose(view) {
+  byId("caption").hidden = true;
+  show(view);
+}
+
 function startTabs() {
   for (const [i, name] of VIEWS.entries()) {
     const tab = byId(`tab-${name}`);
-    tab.addEventListener("click", () => show(name));
+    tab.addEventListener("click", () => choose(name));
     tab.addEventListener("keydown", (event) => {
       const to = { ArrowRight: i + 1, ArrowLeft: i - 1, Home: 0, End: -1 }[event.key];
       if (to === undefined) return;
       event.preventDefault();
       const next = VIEWS.at(to % VIEWS.length);
-      show(next);
+      choose(next);
       byId(`tab-${next}`).focus();
     });
   }

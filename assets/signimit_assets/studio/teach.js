@@ -21,17 +21,12 @@ export class Teach {
     this.mine = false; // whether something of what is drawn was drawn in this page
     this.wish = null;
     this.showing = 0; // which demonstration is played here, from 1; 0 for none
-    this.pads = SIGNS.map((place, i) => new SignPad(i + 1, (byHand) => this.drew(place, this.pads[i].parts, byHand)));
+    this.pads = SIGNS.map((place, i) => new SignPad(i + 1, (byHand) => this.drew(place, this.pads[i].parts, byHand), () => this.isFree()));
     byId("teach-pads").append(...this.pads.map((pad) => pad.element));
-    this.table = new TeachTable(byId("teach-stage"), () => this.drew(HAND, this.table.hand ? [this.table.hand] : []));
+    this.table = new TeachTable(byId("teach-stage"), () => this.drew(HAND, this.table.hand ? [this.table.hand] : []), () => this.isFree());
     this.roles = new Roles(byId("teach-roles"), () => this.continue());
     this.makeButtons();
-    startBelief({
-      replay,
-      redraw: (n) => this.redraw(n),
-      remove: (n) => this.remove(n),
-      wish: (wish) => this.follow(wish),
-    });
+    startBelief({ replay, redraw: (n) => this.redraw(n), remove: (n) => this.remove(n), wish: (wish) => this.follow(wish) });
     subscribe((session, before) => this.changed(session, before));
   }
 
@@ -65,15 +60,16 @@ export class Teach {
   /** Show what another page drew, unless a person draws there now. */
   takeUp(places) {
     const { drawn } = this.draft;
-    if (this.showing) return this.tell();
+    if (this.showing) return;
     this.pads.forEach((pad, i) => places.includes(SIGNS[i]) && !pad.drawing && pad.put(drawn[SIGNS[i]] ?? []));
     if (places.includes(HAND) && !this.table.drawing) this.table.put(drawn[HAND]?.[0] ?? null);
-    return this.tell();
+    this.tell();
   }
 
   /** Show the table, and what is drawn on it already. */
   restore() {
     const { number } = this.draft;
+    this.showing = 0;
     if (number === null) this.open(store.session.next.scene, path(`scene.jpg?revision=${store.session.revision}`), [[], []], null);
     else attempt(async () => this.openOld(await demonstration(number)));
   }
@@ -102,17 +98,29 @@ export class Teach {
 
   /** The strokes at a place are others, or gone; a sign by hand may make it the turn of built-in people. */
   drew(place, strokes, byHand = false) {
-    if (this.showing) return;
+    if (this.showing) return byHand && this.restore();
     this.mine = true;
     this.draft.keep({ [place]: strokes });
     this.tell();
-    if (byHand) this.continue();
+    return byHand && this.continue();
+  }
+
+  /** A person puts the pen down; what is played here makes room first, and its table with it. */
+  isFree() {
+    if (!this.showing) return true;
+    this.restore();
+    return false;
   }
 
   /** Show what is to be done, and what can be done. */
   tell() {
     const { session } = store;
-    if (this.showing && this.showing <= session.demonstrations.length) return this.tellShown(this.showing - 1);
+    if (this.showing) {
+      this.teachIt.disabled = true;
+      byId("teach-examples").replaceChildren();
+      [byId("teach-count").textContent, byId("teach-prompt").textContent] = shownTexts(session, this.showing - 1);
+      return;
+    }
     const old = this.draft.number;
     const ready = this.pads.every((pad) => pad.stroke) && this.table.hand !== null;
     this.teachIt.disabled = !ready || this.busy;
@@ -123,14 +131,6 @@ export class Teach {
     byId("teach-prompt").textContent = sentence(session, prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
     byId("teach-choices").replaceChildren(...(this.wish ? [button("Back to the list", () => this.follow(null))] : []));
-    return undefined;
-  }
-
-  /** Show what is being played. */
-  tellShown(number) {
-    this.teachIt.disabled = true;
-    [byId("teach-count").textContent, byId("teach-prompt").textContent] = shownTexts(store.session, number);
-    byId("teach-examples").replaceChildren();
   }
 
   /** Demonstrate what the robot would like to see. */
@@ -227,22 +227,22 @@ export class Teach {
     return undefined;
   }
 
-  /** Play a demonstration that was made already, on this table; a newer one cuts it short. */
+  /** Play a demonstration that was made already, on this table; it stays until a newer one, or a person, takes its place. */
   async perform(number) {
-    const shown = await demonstration(number);
     this.showing = number + 1;
-    this.tell();
+    this.tell(); // at once: what is written never runs ahead of what is to be seen
+    const shown = await demonstration(number);
+    if (this.showing !== number + 1) return;
     this.pads.forEach((pad) => pad.clear(false));
     this.table.open({ objects: shown.objects, hand: shown.hand.points[0] }, path(`demonstrations/${number}/scene.jpg`), null);
+    this.table.hint("");
     for (const [i, pad] of this.pads.entries()) if (!(await pad.play(shown.signs[i], SHOW_SPEED))) return;
     await this.table.play(shown.hand, SHOW_SPEED);
-    if (this.showing !== number + 1) return;
-    this.showing = 0;
-    this.restore();
   }
 
   /** The view is opened. */
   async enter() {
+    if (this.showing) this.restore();
     await attempt(() => refresh());
     this.continue();
   }

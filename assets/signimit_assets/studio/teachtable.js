@@ -13,9 +13,13 @@ const LEAST = 0.02; // m; what reaches less far was a tap
 const HINT = "Begin at the hand, the yellow dot.";
 
 export class TeachTable {
-  /** @param {function} changed called when the movement is drawn or gone */
-  constructor(host, changed) {
+  /**
+   * @param {function} changed called when the movement is drawn or gone
+   * @param {function} free called when a person puts the pen down; tells whether the table is theirs
+   */
+  constructor(host, changed, free) {
     this.changed = changed;
+    this.free = free;
     this.stage = new Stage(host, "The table with its objects; draw the movement here");
     this.scene = null;
     this.hand = null;
@@ -69,7 +73,7 @@ export class TeachTable {
   }
 
   begin(at) {
-    if (!this.scene || this.stage.waiting) return false;
+    if (!this.free() || !this.scene || this.stage.waiting) return false;
     const near = Math.max(NEAR, FINGER * this.stage.pixel);
     if (distance(this.stage.metres(at), this.scene.hand) > near) {
       this.hint(HINT, true);

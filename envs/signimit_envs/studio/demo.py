@@ -47,6 +47,7 @@ async def play_session(studio: Studio, seed: int, pace: float = 1.0) -> None:
     for attempt, request in enumerate(sorted(PAPER_LANGUAGE.held_back)):
         await _ask(studio, session, request, attempt, pace)
     _tell(studio, session, "look", "What the robot has seen, believed and done")
+    studio.viewers.forget()
 
 
 async def _demonstrate(studio: Studio, session: OpenSession, request: Request) -> None:
@@ -56,10 +57,8 @@ async def _demonstrate(studio: Studio, session: OpenSession, request: Request) -
     answer = await asyncio.to_thread(draw_answer, LANGUAGE, seed, request, number, (objects, hand))
     shown = Shown(signs, objects, answer, request, "built-in people")
     await session.edit(session.history.revision, Demonstrated((shown,)))
-    studio.changed(session)
-    _tell(
-        studio, session, "teach", f"{prompt_text(PAPER_LANGUAGE, request)} The robot is told nothing of this.", number
-    )
+    caption = f"{prompt_text(PAPER_LANGUAGE, request)} The robot is told nothing of this."
+    _tell(studio, session, "teach", caption, number)  # the news of the change too: a page shows both at once
 
 
 async def _ask(studio: Studio, session: OpenSession, request: Request, attempt: int, pace: float) -> None:

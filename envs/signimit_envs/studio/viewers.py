@@ -95,6 +95,10 @@ class Viewers:
         for viewer in self._listed():
             viewer.put_news(text)
 
+    def forget(self) -> None:
+        """Send new pages no standing message any more."""
+        self._standing = None
+
     def _listed(self) -> list[Viewer]:
         with self._lock:
             return list(self._all)

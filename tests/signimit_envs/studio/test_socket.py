@@ -226,6 +226,19 @@ def test_a_page_that_comes_late_hears_what_stands() -> None:
     assert asyncio.run(come()) == '{"standing": 1}'
 
 
+def test_a_page_that_comes_after_the_play_is_over_is_not_led_anywhere() -> None:
+    async def come() -> str | bytes:
+        viewers = Viewers()
+        viewers.tell({"standing": 1}, standing=True)
+        viewers.forget()
+        late = Viewer()
+        viewers.add(late)
+        viewers.tell({"passing": 1})
+        return await late.take()
+
+    assert asyncio.run(come()) == '{"passing": 1}'
+
+
 def test_a_waiting_page_wakes_for_a_frame_from_another_thread() -> None:
     async def wait() -> str | bytes:
         viewer = Viewer()
