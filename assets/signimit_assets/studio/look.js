@@ -13,6 +13,8 @@ const FIGURES = {
   7: "What the arm drew",
 };
 
+const OLD = "This is from before the last change; it is being drawn again…";
+
 export class Look {
   constructor() {
     this.replay = new Replay();
@@ -31,7 +33,7 @@ export class Look {
     const row = make("p", { className: "links", hidden: true }, "Download ", ...links);
     const box = make("details", { open: number === "4" }, make("summary", { textContent: `${number} · ${FIGURES[number]}` }), note, picture, row);
     box.addEventListener("toggle", () => this.load(number));
-    this.figures.set(number, { box, picture, note, row, links, made: "" });
+    this.figures.set(number, { box, picture, note, row, links, made: "", of: "" });
     return box;
   }
 
@@ -54,17 +56,21 @@ export class Look {
     const figure = this.figures.get(number);
     if (!figure.box.open || !store.session || figure.made === this.state(number)) return;
     const wanted = (figure.made = this.state(number));
-    figure.note.textContent = "The figure is being drawn…";
+    const { id } = store.session;
+    if (figure.of !== store.session.id) this.present(figure, false); // another session's
+    figure.note.textContent = figure.picture.hidden ? "The figure is being drawn…" : OLD;
     try {
       const drawn = await blob(path(`figures/${number}.png`));
       if (figure.made !== wanted) return;
       URL.revokeObjectURL(figure.picture.src);
       figure.picture.src = URL.createObjectURL(drawn);
       figure.note.textContent = "";
+      figure.of = id;
       figure.links.forEach((link, i) => (link.href = `api/${path(`figures/${number}.${["png", "svg"][i]}`)}`));
       this.present(figure, true);
     } catch (problem) {
       if (figure.made !== wanted) return;
+      figure.made = ""; // when it is looked at again, it is tried again
       figure.note.textContent = problem.message;
       this.present(figure, false);
     }

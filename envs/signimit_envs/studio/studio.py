@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import importlib
 import logging
 import time
 from collections import deque
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from signimit.languages import Request
 from signimit.scenes import sample_hand, sample_scene
 from signimit_envs.scene import CONTROL_RATE
+from signimit_envs.studio.album import Album
 from signimit_envs.studio.belief import understood_text
 from signimit_envs.studio.camera import Camera
 from signimit_envs.studio.events import Asked, Created, Signs
@@ -56,7 +58,7 @@ class Studio:
             InvalidInputError: If another studio uses the folder.
         """
         self.shelf = Shelf(folder)
-        self.viewers = Viewers()
+        self.viewers, self.album = Viewers(), Album()
         self.arm = LiveArm(self._record)
         self.camera = Camera(lambda: self.arm.state, lambda: self.viewers.watching, self.viewers.publish)
         self.demo: str | None = None
@@ -70,9 +72,10 @@ class Studio:
         self._opening = asyncio.Lock()
 
     def start(self) -> None:
-        """Let arm and camera work."""
+        """Let arm and camera work, and matplotlib be imported before somebody waits for a figure."""
         self.arm.start()
         self.camera.start()
+        self._darkroom.submit(importlib.import_module, "signimit.figures")
 
     def close(self) -> None:
         """End everything; what the arm did last is written first."""
