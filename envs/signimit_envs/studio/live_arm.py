@@ -111,12 +111,15 @@ class LiveArm:
     def _live(self) -> None:
         self._born = time.perf_counter()
         self._pace = Pace(1.0 / CONTROL_RATE, self._born)
+        failing = False
         while not self._stop.is_set():
             try:
                 self.step()
+                failing = False
             except Exception:  # whatever it is, an arm that rests is better than a thread that died
-                _log.exception("the arm failed and rests")
-                self._errand = None
+                if not failing:  # else the log would fill by 50 a second
+                    _log.exception("the arm failed and rests")
+                self._errand, failing = None, True
             self._stop.wait(self._pace.wait(time.perf_counter()))
 
     def _look(self, observation: dict[str, Any]) -> None:

@@ -169,6 +169,21 @@ def test_a_policy_that_fails_makes_the_arm_rest_not_die(arm: LiveArm, caplog: py
     assert arm.state.errand is None
 
 
+def test_an_arm_that_fails_again_and_again_is_logged_once(
+    arm: LiveArm, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    failures: list[int] = []
+
+    def fail() -> None:
+        failures.append(0)
+        raise ArithmeticError("no physics")
+
+    monkeypatch.setattr(arm, "step", fail)
+    arm.start()
+    _wait_for(lambda: len(failures) > 3)
+    assert caplog.text.count("the arm failed and rests") == 1
+
+
 def test_the_trail_is_short_and_the_states_do_not_change(arm: LiveArm, policy: si.Policy) -> None:
     arm.obey(Errand("session", 0, policy, 0, "text"))
     arm.step()
