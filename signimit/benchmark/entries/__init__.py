@@ -21,10 +21,15 @@ def _perceptron(kit: Kit) -> Entry:
     return PerceptronCloning(kit)
 
 
-def _deep(kit: Kit, attention: bool) -> Entry:
-    from signimit.benchmark.entries.deep_cloning import DeepCloning
+def _deep(name: str, title: str, attention: bool, demonstrations: int = 0) -> Entrant:
+    """Enter a deep network, with or without attention to one object."""
 
-    return DeepCloning(kit, attention)
+    def make(kit: Kit) -> Entry:
+        from signimit.benchmark.entries.deep_cloning import DeepCloning
+
+        return DeepCloning(kit, attention)
+
+    return Entrant(name=name, title=title, make=make, demonstrations=demonstrations)
 
 
 _ALL: tuple[Entrant | Oracle, ...] = (
@@ -32,28 +37,10 @@ _ALL: tuple[Entrant | Oracle, ...] = (
     learner_entrant("paper", "the paper: Algorithm 1 as it works, its k-NN policy", "paper", "knn"),
     learner_entrant("paper-path", "the paper's inference, path-following", "paper"),
     learner_entrant("paper-literal", "the paper with Algorithm 1 as printed", "paper-literal", "knn"),
-    Entrant(
-        name="deep-12",
-        title="a deep network with attention to one object, trained on what was shown",
-        make=lambda kit: _deep(kit, attention=True),
-    ),
-    Entrant(
-        name="deep-1200",
-        title="the same, trained on 1,200 demonstrations",
-        make=lambda kit: _deep(kit, attention=True),
-        demonstrations=MANY,
-    ),
-    Entrant(
-        name="deep-plain-12",
-        title="a deep network without attention, trained on what was shown",
-        make=lambda kit: _deep(kit, attention=False),
-    ),
-    Entrant(
-        name="deep-plain-1200",
-        title="the same without attention, trained on 1,200 demonstrations",
-        make=lambda kit: _deep(kit, attention=False),
-        demonstrations=MANY,
-    ),
+    _deep("deep-12", "a deep network with attention to one object, trained on what was shown", True),
+    _deep("deep-1200", "the same, trained on 1,200 demonstrations", True, MANY),
+    _deep("deep-plain-12", "a deep network without attention, trained on what was shown", False),
+    _deep("deep-plain-1200", "the same without attention, trained on 1,200 demonstrations", False, MANY),
     Entrant(
         name="clone-knn",
         title="behaviour cloning: the nearest moments, seen from all objects",
