@@ -4,7 +4,7 @@ import { button, calm, make } from "./dom.js";
 import { Recording, followPointer, joined } from "./pen.js";
 
 const PAUSE = 1500; // ms; after a longer one a new stroke begins the sign again
-const LEAST = 0.04; // of half the pad; what reaches less far was a tap
+const LEAST = 0.1; // of half the pad; what reaches less far was a tap
 const FILL = 0.8; // of the pad, for strokes that others drew
 const PLAYBACK = 2; // times as fast as it was drawn
 

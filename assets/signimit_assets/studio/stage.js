@@ -78,6 +78,12 @@ export class Stage {
     return toMetres([(x * 640) / box.width, (y * 480) / box.height], plane);
   }
 
+  /** The nearest pixel that is on the sheet. */
+  within({ x, y }) {
+    const { width, height } = this.sheet.getBoundingClientRect();
+    return { x: Math.min(Math.max(x, 0), width), y: Math.min(Math.max(y, 0), height) };
+  }
+
   /** Length of a CSS pixel on the table, m. */
   get pixel() {
     return (640 / this.sheet.getBoundingClientRect().width) * store.studio.picture.metres_per_pixel.table;

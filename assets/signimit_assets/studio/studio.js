@@ -22,7 +22,7 @@ const views = {};
 
 async function begin() {
   store.studio = await get("studio");
-  const [view, id] = location.hash.slice(1).split("/");
+  const [view, id] = addressed();
   const live = new LiveTable({
     frame: (header, jpeg) => store.view === "ask" && views.ask.table.frame(header, jpeg),
     changed: ({ session, events }) => session === store.session?.id && inBackground(() => refresh(events)),
@@ -55,6 +55,9 @@ function header(session) {
   address();
 }
 
+/** The view and the session of the address. */
+const addressed = () => location.hash.slice(1).split("/");
+
 function address() {
   history.replaceState(null, "", `#${store.view}/${store.session.id}`);
 }
@@ -79,9 +82,10 @@ function show(view) {
   views[view].enter();
 }
 
-/** A person goes to a view; a caption of what plays by itself was for another. */
+/** A person goes to a view, and back with the browser's button; a caption of what plays by itself was for another. */
 function choose(view) {
   byId("caption").hidden = true;
+  if (view !== store.view) history.pushState(null, "", location.hash); // what `show` writes over
   show(view);
 }
 
@@ -122,6 +126,11 @@ async function follow({ session, view, caption, demonstration }) {
 begin().catch((problem) => {
   complain(problem);
   document.body.dataset.ready = "no";
+});
+window.addEventListener("hashchange", () => { // somebody went back, or typed it
+  const [view, id] = addressed();
+  if (id === store.session?.id && VIEWS.includes(view)) show(view);
+  else location.reload();
 });
 window.addEventListener("unhandledrejection", (event) => complain(event.reason));
 window.addEventListener("error", (event) => complain(event.error ?? event.message));

@@ -86,13 +86,16 @@ export class TeachTable {
     return true;
   }
 
+  /** Go on; a pen that leaves the picture draws along its edge, where it is seen. */
   move(at) {
-    this.drawing.add(this.stage.metres(at), at.time);
+    if (!this.drawing) return; // the table changed under the pen
+    this.drawing.add(this.stage.metres(this.stage.within(at)), at.time);
     this.stage.paint();
   }
 
   end() {
     const made = this.drawing;
+    if (!made) return;
     this.drawing = null;
     this.hand = made.reach >= LEAST ? made.stroke : null;
     this.hint(this.hand ? "Draw it again from the yellow dot if you like." : HINT, !this.hand);

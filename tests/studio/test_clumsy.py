@@ -1,0 +1,81 @@
+"""What clumsy and hostile people do with the page: it neither breaks nor keeps what they did not mean."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
+Visit = Callable[..., Any]
+NewSession = Callable[..., str]
+PAD, TABLE = "#teach-pads figure:nth-child(1) canvas", "#teach-stage .sheet"
+
+
+def from_the_hand(visitor: Any, in_picture: Any, *places: tuple[float, float]) -> Any:
+    """A movement over the table, in shares of its picture, that begins at the hand."""
+    start = in_picture(visitor.api("studio")["picture"], np.array(visitor.session()["next"]["scene"]["hand"]))
+    return np.array([start, *places])
+
+
+def draw_from_the_hand(visitor: Any, in_picture: Any, *places: tuple[float, float], lift: bool = True) -> None:
+    visitor.page.locator("#teach-stage .stage:not(.waiting)").wait_for()
+    path = from_the_hand(visitor, in_picture, *places)
+    visitor.draw(TABLE, path, np.linspace(0, 0.4, len(path)), lift=lift)
+
+
+def test_a_table_that_changes_under_the_pen_forgets_the_stroke(
+    visit: Visit, new_session: NewSession, in_picture: Any
+) -> None:
+    visitor = visit()
+    visitor.open("teach", new_session(visitor, 1))
+    draw_from_the_hand(visitor, in_picture, (0.5, 0.4), (0.6, 0.5), lift=False)
+    visitor.page.keyboard.press("Control+z")
+    visitor.see("#session-facts", "0 demonstrations")
+    for what in ("Move", "End"):
+        visitor.event(what, 600, 400, visitor.clock + 0.1)
+    draw_from_the_hand(visitor, in_picture, (0.5, 0.4), (0.6, 0.5))
+    visitor.until_kept("hand")
+    expect(visitor.page.locator("#alert")).to_be_hidden()
+
+
+def test_a_movement_that_leaves_the_picture_goes_along_its_edge_and_can_be_taught(
+    visit: Visit, new_session: NewSession, in_picture: Any
+) -> None:
+    visitor = visit()
+    visitor.open("teach", new_session(visitor))
+    draw_from_the_hand(visitor, in_picture, (0.5, 0.4), (40.0, -30.0), (-50.0, 60.0), (0.5, 0.5))
+    for number in (1, 2):
+        visitor.sign("teach", number, np.array([[0.0, 0.0], [1.0, 0.3], [0.2, 1.0]]))
+    visitor.page.locator("#teach-it").dblclick()
+    visitor.see("#teach-count", "Demonstration 1")
+    picture = visitor.api("studio")["picture"]
+    kept = visitor.api(f"sessions/{visitor.session()['id']}/demonstrations/0")["hand"]["points"]
+    places = in_picture(picture, np.array(kept))
+    assert places.min() == pytest.approx(0, abs=1e-6)
+    assert places.max() == pytest.approx(1, abs=1e-6)
+    assert len(visitor.session()["demonstrations"]) == 1
+
+
+def test_a_click_with_a_shaking_hand_is_no_sign(visit: Visit, new_session: NewSession) -> None:
+    visitor = visit()
+    visitor.open("teach", new_session(visitor))
+    visitor.draw(PAD, np.array([[0.5, 0.5], [0.53, 0.51], [0.51, 0.52]]), np.linspace(0, 0.2, 3))
+    expect(visitor.page.locator(f"{PAD}[aria-label$=empty]")).to_be_visible()
+
+
+def test_back_goes_to_the_view_before_and_another_address_to_another_session(
+    visit: Visit, new_session: NewSession
+) -> None:
+    visitor = visit()
+    one, other = new_session(visitor, 1), new_session(visitor)
+    visitor.open("teach", one)
+    visitor.page.locator("#tab-keep").click()
+    expect(visitor.page.locator("#keep")).to_be_visible()
+    visitor.page.go_back()
+    expect(visitor.page.locator("#teach")).to_be_visible()
+    visitor.page.evaluate("(to) => { location.hash = to }", f"keep/{other}")
+    visitor.see("#session-facts", "0 demonstrations")
+    expect(visitor.page.locator("#keep")).to_be_visible()
