@@ -19,6 +19,7 @@ from signimit_envs.studio.pace import Pace
 from signimit_envs.studio.push import Push
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
+OBJECT_WIDTH = 0.08  # m; the middles of two objects that touch are so far apart
 ANSWER_SECONDS = 60.0  # after which the arm rests
 TRAIL_SECONDS, TRAIL_STRIDE = 8.0, 2  # of the past; control steps between its points
 PART_STEPS = CONTROL_RATE  # of a track that are handed over at once
@@ -79,7 +80,10 @@ class LiveArm:
         self._inbox.put(self._end)
 
     def drag(self, number: int, place: Array) -> None:
-        """Move an object, if there is one of that number, to a place in the workspace, shape (2,), m."""
+        """Move an object, if there is one of that number, to a place in the workspace, shape (2,), m, or beside it.
+
+        No object is put where another is: it slides around it.
+        """
         self._inbox.put(lambda: self._drag(number, place))
 
     def shove(self, velocity: Array) -> None:
@@ -180,8 +184,12 @@ class LiveArm:
     def _drag(self, number: int, place: Array) -> None:
         if number not in range(len(self._bodies)):
             return
+        others = np.delete(self._objects, number, axis=0)
+        wanted = np.clip(_beside(np.clip(place, -WORKSPACE, WORKSPACE), others), -WORKSPACE, WORKSPACE)
+        if _distances(wanted, others).min() < OBJECT_WIDTH - 1e-9:  # in a corner: it stays where it was
+            return
         moved = self._objects.copy()
-        moved[number] = np.clip(place, -WORKSPACE, WORKSPACE)
+        moved[number] = wanted
         self._objects = moved
         self._place_objects()
 
@@ -190,3 +198,17 @@ class LiveArm:
 
     def _shove(self, velocity: Array) -> None:
         self._push = Push(velocity)
+
+
+def _distances(place: Array, others: Array) -> Array:
+    return np.asarray(np.hypot(*(others - place).T))
+
+
+def _beside(place: Array, others: Array) -> Array:
+    """Return where an object comes to lie that is put at a place, by the nearest of the others, shape (O, 2), m."""
+    nearest = others[np.argmin(_distances(place, others))]
+    away = place - nearest
+    distance = float(np.hypot(*away))
+    if distance >= OBJECT_WIDTH:
+        return place
+    return np.asarray(nearest + (away * (OBJECT_WIDTH / distance) if distance > 1e-9 else [OBJECT_WIDTH, 0.0]))

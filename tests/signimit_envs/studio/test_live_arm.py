@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 import signimit as si
 from signimit.people import Person
 from signimit.scenes import drawn_path, sample_times
-from signimit_envs.studio.live_arm import LiveArm
+from signimit_envs.studio.live_arm import OBJECT_WIDTH, LiveArm
 from signimit_envs.studio.live_state import Errand, TrackPart, is_alike
 
 OBJECTS = np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]])
@@ -114,6 +114,28 @@ def test_an_object_stays_in_the_workspace_and_one_that_is_not_there_is_not_moved
     arm.drag(5, np.zeros(2))
     arm.step()
     np.testing.assert_allclose(arm.state.objects, [[0.42, -0.38], *OBJECTS[1:].tolist()])
+
+
+@pytest.mark.parametrize("offset", [(0.0, 0.0), (0.03, 0.0), (-0.01, 0.05)])
+def test_an_object_that_is_dragged_onto_another_comes_to_lie_beside_it(
+    arm: LiveArm, offset: tuple[float, float]
+) -> None:
+    arm.drag(0, OBJECTS[1] + offset)
+    arm.step()
+    gap = arm.state.objects[0] - OBJECTS[1]
+    assert np.hypot(*gap) == pytest.approx(OBJECT_WIDTH)
+    assert gap @ offset == pytest.approx(OBJECT_WIDTH * np.hypot(*offset))
+    np.testing.assert_array_equal(arm.state.objects[1:], OBJECTS[1:])
+
+
+def test_objects_never_overlap_whatever_is_dragged_where(arm: LiveArm) -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        arm.drag(int(rng.integers(3)), rng.choice([0.05, 0.3, 5.0]) * rng.normal(size=2))
+        arm.step()
+        first, second, third = arm.state.objects
+        gaps = [np.hypot(*gap) for gap in (first - second, first - third, second - third)]
+        assert min(gaps) > OBJECT_WIDTH - 1e-6
 
 
 def test_the_arm_rests_when_told_to_and_by_itself_after_a_while(
