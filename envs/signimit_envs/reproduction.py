@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError
+from signimit_envs.control import MAX_HAND_SPEED
 from signimit_envs.scene import CONTROL_RATE
 from signimit_envs.tabletop import TabletopEnv
 
@@ -50,7 +51,7 @@ def reproduce(
 
     Raises:
         InvalidInputError: If the environment is another one, the scene cannot be, or the policy commands what is not
-            finite.
+            finite or not a velocity.
     """
     arm = env.unwrapped
     if not isinstance(arm, TabletopEnv) or arm.control != "hand":
@@ -62,17 +63,29 @@ def reproduce(
     for _ in range(round(seconds * CONTROL_RATE)):
         if each_step is not None:
             each_step()
-        velocity = move(path[-1])
-        # A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
-        action = velocity / max(arm.max_hand_speed, float(np.abs(velocity).max()))
+        action = hand_action(move(path[-1]))
         terminated = arm.step(action)[2]
         if terminated:
             break
-        commanded.append(path[-1] + action * (arm.max_hand_speed / CONTROL_RATE))
+        commanded.append(path[-1] + action * (MAX_HAND_SPEED / CONTROL_RATE))
         path.append(arm.hand)
     if each_step is not None:
         each_step()
     return HandTrack(np.array(path), np.array(commanded).reshape(-1, 2))
+
+
+def hand_action(velocity: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the actions with ``control="hand"`` for velocities of hands, both of shape (..., 2), m/s.
+
+    A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
+
+    Raises:
+        InvalidInputError: If they are of another shape.
+    """
+    if velocity.shape[-1:] != (2,):
+        raise InvalidInputError("policy", "velocities along x and y", f"shape {velocity.shape}")
+    action: NDArray[np.float64] = velocity / np.maximum(MAX_HAND_SPEED, np.abs(velocity).max(axis=-1, keepdims=True))
+    return action
 
 
 def hand_velocities(policy: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

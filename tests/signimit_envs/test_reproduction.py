@@ -97,7 +97,16 @@ def test_the_arm_must_be_commanded_by_its_hand() -> None:
     joints.close()
 
 
-@pytest.mark.parametrize("velocity", [[np.nan, 0.0], [0.0, 0.0, 0.0]])
-def test_a_policy_that_commands_nonsense_is_stopped(env: Any, velocity: list[float]) -> None:
-    with pytest.raises(signimit.InvalidInputError, match="action: expected"):
+@pytest.mark.parametrize(
+    ("velocity", "complaint"),
+    [
+        ([np.nan, 0.0], "action: expected 2 finite numbers"),
+        ([[0.0, 0.0]], "action: expected 2 numbers"),
+        ([0.0, 0.0, 0.0], r"policy: expected velocities along x and y, found shape \(3,\)"),
+        (0.0, r"policy: expected velocities along x and y, found shape \(\)"),
+        ([], r"policy: expected velocities along x and y, found shape \(0,\)"),
+    ],
+)
+def test_a_policy_that_commands_nonsense_is_stopped(env: Any, velocity: Any, complaint: str) -> None:
+    with pytest.raises(signimit.InvalidInputError, match=complaint):
         reproduce(env, lambda hand: velocity, OBJECTS, [0.0, 0.0], 1.0)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import closing
 from dataclasses import asdict
-from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -15,7 +14,7 @@ from signimit.languages import PAPER_LANGUAGE, Language
 from signimit.learning import ImitationModel
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.recorder import EpisodeRecorder
-from signimit_envs.reproduction import hand_velocities
+from signimit_envs.reproduction import hand_action, hand_velocities
 from signimit_envs.scene import CONTROL_RATE
 from signimit_envs.session import Command
 
@@ -47,14 +46,11 @@ def record_reproductions(
 
 
 def _obey(model: ImitationModel, command: Command, env: EpisodeRecorder) -> None:
-    arm: Any = env.unwrapped
     options = {**command.request._asdict(), **command.scene._asdict(), "signs": command.signs}
     observation, _ = env.reset(options=options)
     move = hand_velocities(model.respond(command.signs, command.scene.objects).policy)
     over = False
     while not over:
-        velocity = move(observation["hand"])
-        # A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
-        action = velocity / max(arm.max_hand_speed, float(np.abs(velocity).max()))
-        observation, _, terminated, truncated, _ = env.step(action.astype(np.float32))
+        action = hand_action(move(observation["hand"])).astype(np.float32)
+        observation, _, terminated, truncated, _ = env.step(action)
         over = terminated or truncated

@@ -10,12 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError
 from signimit.validation import finite_array, item_list
+from signimit_envs.control import MAX_HAND_SPEED
 from signimit_envs.physics_log import QuietLog
+from signimit_envs.reproduction import hand_action
 from signimit_envs.rollout.flock import Flock, Policy
 from signimit_envs.rollout.hand_control import ManyHandsController
 from signimit_envs.rollout.physics import ManyArms, compile_arm
 from signimit_envs.scene import CONTROL_RATE, WORKSPACE
-from signimit_envs.tabletop_hand import TabletopHandEnv
 
 Array = NDArray[np.float64]
 
@@ -76,22 +77,11 @@ def _run(flock: Flock, controller: ManyHandsController, arms: ManyArms, steps: i
         tracks.paths[:, step], tracks.joints[:, step] = here, joints.T
         if step == steps:
             break
-        ahead = displacements(flock.velocities(here))
+        ahead = hand_action(flock.velocities(here)) * (MAX_HAND_SPEED / CONTROL_RATE)
         tracks.commanded[:, step] = here + ahead
         joints, sound = arms.simulate(controller.solve(joints, ahead.T, 1.0 / CONTROL_RATE).velocities)
         tracks.steps[sound] += 1
     return tracks
-
-
-def displacements(velocities: Array) -> Array:
-    """Return where a control step is to take each hand from where it is, shape (B, 2), m.
-
-    A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
-    """
-    fastest = TabletopHandEnv.max_hand_speed
-    slower = fastest / np.maximum(fastest, np.abs(velocities).max(axis=1, keepdims=True))
-    ahead: Array = velocities * (slower / CONTROL_RATE)
-    return ahead
 
 
 def _empty_tracks(count: int, steps: int) -> HandTracks:
