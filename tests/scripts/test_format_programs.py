@@ -5,6 +5,7 @@ from __future__ import annotations
 import runpy
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -17,33 +18,6 @@ pytest.importorskip("tyro")
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 
 
-class Programs:
-    """Runs programs in this process."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-        self._monkeypatch, self._capsys = monkeypatch, capsys
-
-    def __call__(self, name: str, *arguments: object) -> str:
-        """Run a program to its end and return what it said, on both streams."""
-        self._monkeypatch.setattr(sys, "argv", [str(SCRIPTS / f"{name}.py"), *map(str, arguments)])
-        runpy.run_path(str(SCRIPTS / f"{name}.py"), run_name="__main__")
-        return "".join(self._capsys.readouterr())
-
-    def refusal(self, name: str, *arguments: object) -> str:
-        """Run a program that must end with code 2, and return its complaint."""
-        with pytest.raises(SystemExit) as stop:
-            self(name, *arguments)
-        assert stop.value.code == 2
-        said: str = self._capsys.readouterr().err
-        assert said.count("\n") == 1
-        return said
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Programs:
-    return Programs(monkeypatch, capsys)
-
-
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a recording of nine requests, made by the program itself."""
@@ -54,13 +28,13 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_what_is_recorded_replays_bit_for_bit_and_is_not_replaced(run: Programs, recorded: Path) -> None:
+def test_what_is_recorded_replays_bit_for_bit_and_is_not_replaced(run: Any, recorded: Path) -> None:
     assert len(load_recording(recorded)) == 9
     assert "9 episodes, 450 control steps: every state is as recorded, bit for bit." in run("replay", recorded)
     assert "overwrite" in run.refusal("record", "--seconds", 1, "--out", recorded)
 
 
-def test_a_recording_that_was_tampered_with_names_the_first_step(run: Programs, recorded: Path, tmp_path: Path) -> None:
+def test_a_recording_that_was_tampered_with_names_the_first_step(run: Any, recorded: Path, tmp_path: Path) -> None:
     with np.load(recorded) as archive:
         arrays = dict(archive)
     arrays["controls"][2 * 50 + 17, 0] += 1e-6
@@ -69,7 +43,7 @@ def test_a_recording_that_was_tampered_with_names_the_first_step(run: Programs, 
     assert "episode 2, step 17: expected the recorded state, bit for bit, found a difference of" in said
 
 
-def test_the_state_is_observed_from_the_recording_alone(run: Programs, recorded: Path, tmp_path: Path) -> None:
+def test_the_state_is_observed_from_the_recording_alone(run: Any, recorded: Path, tmp_path: Path) -> None:
     out = tmp_path / "state.npz"
     assert "Episode 3, 50 steps, is in" in run("replay", recorded, "--episode", 3, "--out", out)
     with np.load(out) as state:
@@ -78,7 +52,7 @@ def test_the_state_is_observed_from_the_recording_alone(run: Programs, recorded:
     run("replay", recorded, "--out", out, "--overwrite")
 
 
-def test_pixels_of_any_camera_and_size_are_written(run: Programs, recorded: Path, tmp_path: Path) -> None:
+def test_pixels_of_any_camera_and_size_are_written(run: Any, recorded: Path, tmp_path: Path) -> None:
     short = tmp_path / "short.npz"
     save_recording(short, load_recording(recorded)[:1])
     seen = {}
@@ -97,9 +71,7 @@ def test_pixels_of_any_camera_and_size_are_written(run: Programs, recorded: Path
     assert (tmp_path / "a.mp4").stat().st_size > 500
 
 
-def test_a_recording_of_another_mujoco_gets_a_note_and_still_plays(
-    run: Programs, recorded: Path, tmp_path: Path
-) -> None:
+def test_a_recording_of_another_mujoco_gets_a_note_and_still_plays(run: Any, recorded: Path, tmp_path: Path) -> None:
     recording = load_recording(recorded)[:1]
     old = type(recording.origin)(**{**vars(recording.origin), "mujoco_version": "3.2.1"})
     save_recording(tmp_path / "old.npz", Recording(old, recording.episodes))
@@ -108,7 +80,7 @@ def test_a_recording_of_another_mujoco_gets_a_note_and_still_plays(
     assert (tmp_path / "state.npz").exists()
 
 
-def test_data_go_to_csv_and_back_to_the_same_bytes(run: Programs, recorded: Path, tmp_path: Path) -> None:
+def test_data_go_to_csv_and_back_to_the_same_bytes(run: Any, recorded: Path, tmp_path: Path) -> None:
     run("make_demonstrations", "--out", tmp_path)
     for source in (tmp_path / "demonstrations.npz", recorded):
         tables, again = tmp_path / f"{source.stem}-tables", tmp_path / f"again-{source.name}"
@@ -131,7 +103,7 @@ def test_data_go_to_csv_and_back_to_the_same_bytes(run: Programs, recorded: Path
     ],
 )
 def test_bad_input_gets_one_sentence_and_leaves_no_file(
-    run: Programs, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, arguments: list[object], complaint: str
+    run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, arguments: list[object], complaint: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     times = np.arange(3.0)
