@@ -167,12 +167,13 @@ def test_a_blow_up_ends_the_episode_and_leaves_no_log(
     env.reset(seed=0)
     arm = unwrapped(env)
     env.step(resting(env))
-    arm.data.qvel[1] = value
-    observation, reward, terminated, _, info = env.step(resting(env))
-    assert terminated
-    assert reward == 0.0
-    assert "blew up" in info["physics_error"]
-    assert observation in env.observation_space
+    for _ in range(2):  # the second of its kind is noticed as well, and as quietly
+        arm.data.qvel[1] = value
+        observation, reward, terminated, _, info = env.step(resting(env))
+        assert terminated
+        assert reward == 0.0
+        assert "blew up" in info["physics_error"]
+        assert observation in env.observation_space
     assert os.listdir(tmp_path) == []
     assert capfd.readouterr() == ("", "")
     env.reset(seed=0)

@@ -44,8 +44,9 @@ def reproduce_many(policies: Sequence[Policy], hands: ArrayLike, seconds: float,
     """Let policies move many simulated hands, each on a table of its own.
 
     The paths are those of `signimit_envs.reproduce`, which asks mink for one arm at a time, to within 0.5 mm; only a
-    policy that sends neighbouring hands different ways may part them. A reproduction among thousands is what it is
-    alone, and the same call gives the same bits. Where the objects are, the policies know.
+    policy that magnifies the last digit, as gmr and ilo-gmr do, may part them, and parts hands that start 1e-12 m
+    beside each other as far. A reproduction among thousands is what it is alone, and the same call gives the same bits.
+    Where the objects are, the policies know.
 
     Args:
         policies: One a reproduction, hands (G, 2), m, table frame, to velocities (G, 2), m/s. What `signimit` learns is
