@@ -26,11 +26,13 @@ def draw_from_the_hand(visitor: Any, in_picture: Any, *places: tuple[float, floa
     visitor.draw(TABLE, path, np.linspace(0, 0.4, len(path)), lift=lift)
 
 
-def test_a_table_that_changes_under_the_pen_forgets_the_stroke(
+def test_a_shaky_click_draws_nothing_and_a_table_that_changes_under_the_pen_forgets_the_stroke(
     visit: Visit, new_session: NewSession, in_picture: Any
 ) -> None:
     visitor = visit()
     visitor.open("teach", new_session(visitor, 1))
+    visitor.draw(PAD, np.array([[0.5, 0.5], [0.53, 0.51], [0.51, 0.52]]), np.linspace(0, 0.2, 3))  # a shaky click
+    expect(visitor.page.locator(f"{PAD}[aria-label$=empty]")).to_be_visible()
     draw_from_the_hand(visitor, in_picture, (0.5, 0.4), (0.6, 0.5), lift=False)
     visitor.page.keyboard.press("Control+z")
     visitor.see("#session-facts", "0 demonstrations")
@@ -57,13 +59,6 @@ def test_a_movement_that_leaves_the_picture_goes_along_its_edge_and_can_be_taugh
     assert places.min() == pytest.approx(0, abs=1e-6)
     assert places.max() == pytest.approx(1, abs=1e-6)
     assert len(visitor.session()["demonstrations"]) == 1
-
-
-def test_a_click_with_a_shaking_hand_is_no_sign(visit: Visit, new_session: NewSession) -> None:
-    visitor = visit()
-    visitor.open("teach", new_session(visitor))
-    visitor.draw(PAD, np.array([[0.5, 0.5], [0.53, 0.51], [0.51, 0.52]]), np.linspace(0, 0.2, 3))
-    expect(visitor.page.locator(f"{PAD}[aria-label$=empty]")).to_be_visible()
 
 
 def test_back_goes_to_the_view_before_and_another_address_to_another_session(

@@ -63,6 +63,7 @@ def test_what_is_half_drawn_is_there_after_a_reload_and_in_a_new_tab_after_a_kil
         second.sign("ask", 2, person.signer.draw("4", person.rng).points)
         second.see("#ask-sentence", "object, ")
         assert second.session()["draft"]["drawn"] == {}
+        second.page.close()  # or the studio waits for it
 
 
 def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -14,12 +15,15 @@ Json = dict[str, Any]
 def test_a_picture_is_made_once_and_the_oldest_go() -> None:
     album, made = Album(most=2), []
 
-    def make(name: str) -> bytes:
-        made.append(name)
-        return name.encode()
+    def make(name: str) -> Callable[[], bytes]:
+        def draw() -> bytes:
+            made.append(name)
+            return name.encode()
+
+        return draw
 
     for name in ("a", "b", "a", "c", "b", "a"):
-        assert album.fill(name, lambda name=name: make(name)) == name.encode()
+        assert album.fill(name, make(name)) == name.encode()
     assert made == ["a", "b", "c", "a"]
     assert (album.find("b"), album.find("c"), album.find("a")) == (None, b"c", b"a")
 
