@@ -16,7 +16,7 @@ RECORD = """
 window.seen = new Set();
 const text = (place) => document.querySelector(place)?.textContent ?? "";
 const look = () => {
-  if (text("#caption")) {
+  if (text("#caption") && location.hash.startsWith("#teach")) {
     const card = [...document.querySelectorAll("#belief h3")].map((h) => h.textContent);
     const number = (card.find((title) => title.startsWith("Demonstration")) ?? "");
     seen.add(JSON.stringify([text("#caption"), text("#teach-prompt"), text("#teach-count"), number]));
@@ -36,10 +36,10 @@ def test_caption_prompt_and_belief_are_of_the_same_demonstration_at_every_moment
         visitor = visit(address=address)
         visitor.page.add_init_script(RECORD)
         visitor.open()
-        visitor.see("#teach-count", f"Demonstration {DEMONSTRATIONS - 1}, by built-in people")
+        visitor.page.wait_for_function("(most) => seen.size >= most", arg=DEMONSTRATIONS)  # a busy page may skip some
         seen = visitor.page.evaluate("[...seen].map((one) => JSON.parse(one))")
         visitor.page.close()
     for caption, prompt, count, card in seen:
         assert caption == prompt + TOLD
         assert count == f"{card}, by built-in people"
-    assert len({card for *_, card in seen}) == DEMONSTRATIONS
+    assert len({card for *_, card in seen}) == len(seen)

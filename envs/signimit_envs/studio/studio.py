@@ -31,6 +31,7 @@ from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.shelf import Shelf
 from signimit_envs.studio.viewers import Viewers
 
+_PATIENCE = 60.0  # s, for OpenGL to be found
 _KEPT_OPEN = 4  # sessions; an older one is read again when somebody comes back to it
 Result = TypeVar("Result")
 _log = logging.getLogger(__name__)
@@ -72,10 +73,10 @@ class Studio:
         self._opening = asyncio.Lock()
 
     def start(self) -> None:
-        """Let arm and camera work, and matplotlib be imported before somebody waits for a figure."""
+        """Let arm and camera work."""
         self.arm.start()
         self.camera.start()
-        self._darkroom.submit(importlib.import_module, "signimit.figures")
+        self._darkroom.submit(self._prepare_figures)
 
     def close(self) -> None:
         """End everything; what the arm did last is written first."""
@@ -153,6 +154,11 @@ class Studio:
         history = session.history
         news = {"type": "changed", "session": session.name, "revision": history.revision, "events": history.events}
         self.viewers.tell(news)
+
+    def _prepare_figures(self) -> None:
+        """Import matplotlib before somebody waits for a figure, and after the first page, which waits for OpenGL."""
+        self.camera.why_blind(_PATIENCE)
+        importlib.import_module("signimit.figures")
 
     def _record(self, part: TrackPart) -> None:
         """Write a second of an answer to the disk, in a thread that may wait for it."""
