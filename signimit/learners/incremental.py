@@ -41,6 +41,5 @@ def extended_distances(
     drawings[-1, -1] = trace_distances(traces[-1:], objects[-1:])[0, 0]
     for word in range(words):
         features = sign_features([d.signs[word] for d in demonstrations])
-        new, old = features.take(slice(count, None)), features.take(slice(count))
-        signs[word, -1, :-1] = signs[word, :-1, -1] = cross_sign_distances(new, old)[0]
+        signs[word, -1, :-1] = signs[word, :-1, -1] = cross_sign_distances(features[count:], features[:count])[0]
     return drawings, signs, common_place_evidence(np.stack([t.centre for t in traces]), objects)

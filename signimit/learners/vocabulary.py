@@ -1,107 +1,73 @@
 """Signs compared with each other, not with prototypes: every sign that was seen helps to read the next one.
 
-Two signs are compared twice: as courses, by dynamic time warping of place and direction, and as pictures, by the
-nearest point of like slope whatever the order of drawing, for people who begin a sign at another end still draw the
-same picture. The distance is the geometric mean of both.
+A sign is a set of samples, each with a place and the direction of the pen; where in the sign it comes does not matter.
+A sample's gap is that to the sample of the other sign that is nearest in both at once, and the distance of two signs is
+their mean gap. A gap never counts for more than a limit: a base line under a "1" does not outweigh the stem that all
+"1" share.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import logsumexp, softmax
 
 from signimit.acceleration import kernels_for
-from signimit.signs import resampled_path, warped_totals
+from signimit.signs import resampled_path
 from signimit.understanding import Reading, Understanding
 from signimit.validation import moving_points
 
 _SAMPLES = 32
-_DIRECTION = 2.0  # weight of a unit direction in a course, against the sign's root mean square radius
-_SLOPE = 0.7  # weight of the slope in a picture
-_NARROWEST = 0.2  # share of its size below which a sign's width or height counts as this much
+_DIRECTION = 1.2  # weight of a unit direction, against the sign's root mean square radius
+_LARGEST_GAP = 1.2  # in the same unit
 _SHARPNESS = 10.0  # a meaning weighs as the mean of distance ** -10 over its signs: near ones count, far ones hardly
 _PAIRS = 2**9  # pairs that are compared at once
-_SECONDS = 1e-5  # that numpy takes for a sign beside another
+_SECONDS = 3e-6  # that numpy takes for a sign beside another
 
 
-class SignFeatures(NamedTuple):
-    """Signs, free of their position and size.
+def sign_features(signs: Sequence[ArrayLike]) -> NDArray[np.float64]:
+    """Describe N signs, each of shape (T_s, 2), any unit, free of their position and size.
 
-    Attributes:
-        courses: Place and direction along each sign, shape (N, 32, 4).
-        pictures: Place, with width and height brought nearer to each other, and slope, shape (N, 32, 4).
+    Returns:
+        Place, in root mean square radii, and weighted direction of 32 samples of each sign, shape (N, 32, 4).
     """
-
-    courses: NDArray[np.float64]
-    pictures: NDArray[np.float64]
-
-    def take(self, which: slice) -> Self:
-        """Return the features of some of the signs."""
-        return type(self)(self.courses[which], self.pictures[which])
+    return np.stack([_describe(moving_points(s, f"sign {i}")) for i, s in enumerate(signs)])
 
 
-def sign_features(signs: Sequence[ArrayLike]) -> SignFeatures:
-    """Describe N signs, each of shape (T_s, 2), any unit."""
-    described = [_describe(moving_points(s, f"sign {i}")) for i, s in enumerate(signs)]
-    courses, pictures = zip(*described, strict=True)
-    return SignFeatures(np.stack(courses), np.stack(pictures))
-
-
-def _describe(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _describe(points: NDArray[np.float64]) -> NDArray[np.float64]:
     path = resampled_path(points / np.abs(points).max(), _SAMPLES)
     path = path - path.mean(axis=0)
-    path /= _radius(path)
-    extents = np.sqrt(np.maximum(path.std(axis=0), _NARROWEST))
-    squared = path / extents
-    squared /= _radius(squared)
-    slope = _angles(squared)
-    course = np.column_stack([path, _DIRECTION * _unit(_angles(path))])
-    return course, np.column_stack([squared, _SLOPE * _unit(2 * slope)])  # twice the angle: up and down are one slope
-
-
-def _radius(path: NDArray[np.float64]) -> float:
-    return float(np.sqrt((path * path).sum(axis=1).mean()))
-
-
-def _angles(path: NDArray[np.float64]) -> NDArray[np.float64]:
+    path /= np.sqrt((path * path).sum(axis=1).mean())
     along = np.gradient(path, axis=0)
-    return np.asarray(np.arctan2(along[:, 1], along[:, 0]))
+    angle = np.arctan2(along[:, 1], along[:, 0])
+    return np.column_stack([path, _DIRECTION * np.cos(angle), _DIRECTION * np.sin(angle)])
 
 
-def _unit(angles: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.column_stack([np.cos(angles), np.sin(angles)])
-
-
-def sign_distances(features: SignFeatures) -> NDArray[np.float64]:
-    """Compute the distance of all pairs of signs, shape (N, N), no unit."""
-    count = len(features.courses)
+def sign_distances(features: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute the distance of all pairs of N signs, shape (N, 32, 4); returns shape (N, N), within 0 and 1.2."""
+    count = len(features)
     kernels = kernels_for(_SECONDS * count**2)
     if kernels is not None:
-        return np.asarray(kernels.sign_distances(*(part.astype(np.float32) for part in features)))
+        return np.asarray(kernels.sign_distances(features.astype(np.float32), _LARGEST_GAP))
     table = np.zeros((count, count))
     rows = max(1, _PAIRS // count)
     for start in range(0, count, rows):
-        some, rest = features.take(slice(start, start + rows)), features.take(slice(start, None))
-        table[start : start + rows, start:] = cross_sign_distances(some, rest)
+        table[start : start + rows, start:] = cross_sign_distances(features[start : start + rows], features[start:])
     table = np.triu(table, 1)
     return table + table.T
 
 
-def cross_sign_distances(first: SignFeatures, second: SignFeatures) -> NDArray[np.float64]:
-    """Compute the distance of each of A signs to each of B others, shape (A, B), no unit."""
-    out = np.empty((len(first.courses), len(second.courses)))
+def cross_sign_distances(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Compute the distance of each of A signs, shape (A, 32, 4), to each of B others; returns shape (A, B)."""
+    out = np.empty((len(first), len(second)))
     columns = max(1, _PAIRS // len(out))
     for start in range(0, out.shape[1], columns):
-        part = second.take(slice(start, start + columns))
-        course = warped_totals(np.sqrt(_squares(first.courses, part.courses))) / _SAMPLES
-        gaps = _squares(first.pictures, part.pictures)
-        there, back = (np.sqrt(gaps.min(axis=axis)).mean(axis=0) for axis in (1, 0))
-        out[:, start : start + columns] = np.sqrt(course * (there + back) / 2).reshape(len(out), -1)
+        squares = np.minimum(_squares(first, second[start : start + columns]), _LARGEST_GAP**2)
+        there, back = (np.sqrt(squares.min(axis=axis)).mean(axis=0) for axis in (1, 0))
+        out[:, start : start + columns] = ((there + back) / 2).reshape(len(out), -1)
     return out
 
 
@@ -119,12 +85,12 @@ class VocabularyReader:
     """Reads a sign by its distances to all signs of each meaning.
 
     Attributes:
-        features: Seen signs for each place of the utterance.
+        features: Seen signs for each place of the utterance, each of shape (N, 32, 4).
         understanding: What they meant.
         objects: Number of objects.
     """
 
-    features: tuple[SignFeatures, ...]
+    features: tuple[NDArray[np.float64], ...]
     understanding: Understanding
     objects: int
 
