@@ -122,6 +122,21 @@ def study() -> list[str]:
     return table(("%", "cells", *methods), lines)
 
 
+def signs() -> list[str]:
+    """Signs read on their own, by method."""
+    with (RESULTS / "study" / "signs.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    methods = list(dict.fromkeys(row["method"] for row in rows))
+    right = {(*_quiz(row), row["method"]): share(int(row["right"]), int(row["asked"])) for row in rows}
+    kinds = dict.fromkeys(map(_quiz, rows))
+    lines = [(*kind, *(right[(*kind, method)] for method in methods)) for kind in kinds]
+    return table(("signs", "examples of each", "signers", *methods), lines)
+
+
+def _quiz(row: dict[str, str]) -> tuple[str, str, str]:
+    return row["signs"], row["shown"], row["signers"]
+
+
 def asking() -> list[str]:
     """How many demonstrations it takes by what is asked for."""
     facts = read("study", "asking.json")
@@ -164,8 +179,8 @@ def throughput() -> list[str]:
 
 
 TABLES: dict[str, Callable[[], list[str]]] = {
-    "checker": checker, "sessions": sessions, "policies": policies, "study": study, "asking": asking,
-    "growth": growth, "benchmark": benchmark, "throughput": throughput,
+    "checker": checker, "sessions": sessions, "policies": policies, "study": study, "signs": signs,
+    "asking": asking, "growth": growth, "benchmark": benchmark, "throughput": throughput,
 }  # fmt: skip
 
 if __name__ == "__main__":

@@ -29,6 +29,7 @@ from signimit.study.folds import FoldRow, leave_people_out
 from signimit.study.records import OURS, Record, read_records, run_session, run_sessions
 from signimit.study.scaling import Measurement, measure_growth
 from signimit.study.scoring import calibrate
+from signimit.study.signs import METHODS, QUIZZES, SignRow, run_quizzes
 from signimit.study.tables import (
     LessonRow,
     Row,
@@ -46,7 +47,7 @@ LONGEST = 100.0  # s of processors; a step that would take longer is not measure
 
 
 def main(
-    what: Literal["cells", "calibration", "asking", "people", "scaling"],
+    what: Literal["cells", "calibration", "asking", "people", "signs", "scaling"],
     /,
     *,
     sessions: int = 20,
@@ -62,8 +63,9 @@ def main(
 
     Args:
         what: The table of all cells; the calibration of confidence in the sessions of that table; how much sooner a
-            learner understands that asks; how people are understood who had no part in its constants; or time and
-            memory against the number of demonstrations. Cells and asking go on where a killed run stopped.
+            learner understands that asks; how people are understood who had no part in its constants; how signs are
+            read, on their own; or time and memory against the number of demonstrations. Cells and asking go on where
+            a killed run stopped.
         sessions: How many of each cell.
         first_seed: Seed of the first; the others follow.
         signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
@@ -79,6 +81,8 @@ def main(
         scaling(counts, out)
     elif what == "people":
         people_left_out(load_people(signs, movements), sessions, out)
+    elif what == "signs":
+        reading_signs(None if signs is None else StrokeLibrary.load(signs), sessions, out)
     else:
         people = load_people(signs, movements)
         kinds = study_cells if what == "cells" else asking_cells
@@ -153,6 +157,19 @@ def people_left_out(people: People | None, sessions: int, out: Path) -> None:
         counts = {"without": sum(r.right_without for r in rows), "shipped": sum(r.right_shipped for r in rows)}
         shares = {k: [n, total, *(round(x, 4) for x in wilson_interval(n, total))] for k, n in counts.items()}
         _write_facts(folder / "people.json", {"people": [p.source for p in people], "right, of, 95 %": shares})
+
+
+def reading_signs(library: StrokeLibrary | None, quizzes: int, out: Path) -> None:
+    """Compare how signs are read, on their own."""
+    if quizzes < 1:
+        raise InvalidInputError("signs", "at least 1 session", str(quizzes))
+    rows = []
+    for row in tqdm(run_quizzes(library, quizzes), total=len(QUIZZES) * len(METHODS), unit="row"):
+        tqdm.write(f"{row.signs}, {row.shown} shown, signers {row.signers}, {row.method}: {row.right} of {row.asked}")
+        rows.append(row)
+    with whole_files(out) as folder:
+        write_csv(folder / "signs.csv", SignRow._fields, rows)
+        _write_facts(folder / "signs.json", {"people": library.source if library else "synthetic"})
 
 
 def calibration(out: Path) -> None:

@@ -187,17 +187,23 @@ def cast_strokes(
     elif crowd:
         signs, movements = people
     else:
-        signs = _somebody(people.signs, labels, rng)
-        movements = _somebody(people.movements, language.movements, rng)
+        signs = choose_person(people.signs, labels, rng)
+        movements = choose_person(people.movements, language.movements, rng)
     if cell.condition == "noise":
         signs, movements = wavering(signs, rng), wavering(movements, rng)
     return signs, movements
 
 
-def _somebody(library: StrokeLibrary, labels: Sequence[str], rng: np.random.Generator) -> StrokeLibrary:
-    """Choose somebody who drew all labels."""
+def choose_person(
+    library: StrokeLibrary, labels: Sequence[str], rng: np.random.Generator, least: int = 1
+) -> StrokeLibrary:
+    """Choose somebody who drew all labels at least so often.
+
+    Raises:
+        InvalidInputError: If nobody did.
+    """
     drawn = Counter(zip(library.writers, library.labels, strict=True))
-    able = [w for w in sorted(set(library.writers)) if all(drawn[w, label] for label in labels)]
+    able = [w for w in sorted(set(library.writers)) if all(drawn[w, label] >= least for label in labels)]
     if not able:
         raise InvalidInputError("stroke library", f"somebody who drew {', '.join(labels)}", "nobody")
     return library.select(writer=able[int(rng.integers(len(able)))])

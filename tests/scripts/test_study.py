@@ -40,6 +40,15 @@ def test_tables_and_figures_come_out_of_the_records(
     assert json.loads((folder / "calibration.json").read_text())["all"]["expected calibration error"] == 0.35
 
 
+def test_reading_of_signs_is_written_beside_how_it_was_measured(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run(monkeypatch, "signs", "--sessions", "1", "--out", str(tmp_path))
+    lines = (tmp_path / "signs.csv").read_text().splitlines()
+    assert len(lines) == 1 + 8 * 3
+    assert json.loads((tmp_path / "signs.json").read_text())["people"] == "synthetic"
+
+
 def test_what_cannot_be_run_is_told_in_a_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
