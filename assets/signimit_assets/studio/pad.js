@@ -1,7 +1,7 @@
 /** A square to draw one sign in; a sign may be made of several strokes, made without a pause. */
 
-import { button, calm, make } from "./dom.js";
-import { Recording, followPointer, joined } from "./pen.js";
+import { button, calm, complain, make } from "./dom.js";
+import { Recording, TOO_LONG, fewEnough, followPointer, joined } from "./pen.js";
 
 const PAUSE = 1500; // ms; after a longer one a new stroke begins the sign again
 const LEAST = 0.1; // of half the pad; what reaches less far was a tap
@@ -72,7 +72,7 @@ export class SignPad {
     this.playing += 1; // whatever was played stops
     this.started();
     if (performance.now() - this.lifted > PAUSE) this.parts = [];
-    this.drawing = new Recording();
+    this.drawing = new Recording(this.stroke?.times.at(-1));
     this.size = this.canvas.getBoundingClientRect().width;
     this.move(at);
   }
@@ -86,10 +86,11 @@ export class SignPad {
   end() {
     const made = this.drawing;
     this.drawing = null;
-    if (made.reach >= LEAST) this.parts = [...this.parts, made.stroke];
+    if (made.reach >= LEAST) this.parts = fewEnough([...this.parts, made.stroke]);
     this.lifted = performance.now();
     this.paint();
     this.changed(true);
+    if (made.late) complain(TOO_LONG);
   }
 
   cancel() {

@@ -1,6 +1,9 @@
 /** Strokes from a mouse, a pen or a finger. */
 
+// Of a drawing, all its strokes together; the server takes 5000 and 600, bridges too.
 const MOST_POINTS = 4000;
+const MOST_SECONDS = 580;
+export const TOO_LONG = "A drawing takes at most ten minutes; what was drawn by then is kept.";
 const BRIDGE_STEP = 0.02; // s, between the points that join two strokes of one drawing
 const BRIDGE_MOST = 0.3; // s
 
@@ -45,22 +48,21 @@ export function followPointer(target, hooks) {
 
 /** A stroke as the server wants it: {points, times}. */
 export class Recording {
-  constructor() {
+  /** @param {number} spent seconds that strokes of the same drawing took already */
+  constructor(spent = 0) {
     this.points = [];
     this.times = [];
+    this.left = MOST_SECONDS - spent;
+    this.late = false; // whether something came too late
   }
 
   add(point, time) {
-    const last = this.times.at(-1) ?? 0;
+    const last = this.times.at(-1) ?? time;
+    this.late = time - (this.times[0] ?? time) > this.left;
+    if (this.late) return;
     this.points.push(point);
-    this.times.push(this.times.length ? Math.max(last, time) : time);
-    if (this.points.length > MOST_POINTS) this.thin();
-  }
-
-  /** Keep every second point and the last. */
-  thin() {
-    const keep = (_, i) => i % 2 === 0 || i === this.points.length - 1;
-    [this.points, this.times] = [this.points.filter(keep), this.times.filter(keep)];
+    this.times.push(Math.max(last, time));
+    [{ points: this.points, times: this.times }] = fewEnough([this]);
   }
 
   /** Largest distance from the first point, in the unit of the points. */
@@ -74,6 +76,17 @@ export class Recording {
     const from = this.times[0];
     return { points: this.points, times: this.times.map((t) => t - from) };
   }
+}
+
+/** Leave out every second point but the last of each stroke, until the strokes of a drawing have few enough. */
+export function fewEnough(strokes) {
+  const count = strokes.reduce((sum, { points }) => sum + points.length, 0);
+  return count > MOST_POINTS ? fewEnough(strokes.map(thinned)) : strokes;
+}
+
+function thinned({ points, times }) {
+  const keep = (_, i) => i % 2 === 0 || i === points.length - 1;
+  return { points: points.filter(keep), times: times.filter(keep) };
 }
 
 /** Join two strokes by a straight bridge, as if the pen had not been lifted. */

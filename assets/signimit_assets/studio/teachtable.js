@@ -3,7 +3,7 @@
 import { blob } from "./api.js";
 import { byId, complain, make } from "./dom.js";
 import { playing } from "./pad.js";
-import { Recording, distance, followPointer } from "./pen.js";
+import { Recording, TOO_LONG, distance, followPointer } from "./pen.js";
 import { Stage, drawHand, drawLetters, drawObjects, drawPath } from "./stage.js";
 import { store } from "./store.js";
 
@@ -101,6 +101,7 @@ export class TeachTable {
     this.hint(this.hand ? "Draw it again from the yellow dot if you like." : HINT, !this.hand);
     this.stage.paint();
     this.changed();
+    if (made.late) complain(TOO_LONG);
   }
 
   cancel() {

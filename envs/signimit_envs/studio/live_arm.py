@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from signimit_envs.reproduction import hand_velocities
+from signimit_envs.reproduction import hand_action, hand_velocities
 from signimit_envs.scene import CONTROL_RATE, WORKSPACE, object_bodies
 from signimit_envs.studio.live_state import Array, Errand, LiveState, TrackPart
 from signimit_envs.studio.pace import Pace
@@ -100,8 +100,7 @@ class LiveArm:
         velocity = np.zeros(2)
         if self._errand is not None:
             velocity = self._move(self._state.hand - self._objects[self._errand.focus])
-        action = velocity / max(env.max_hand_speed, float(np.abs(velocity).max()))
-        observation, _, failed, _, _ = env.step(action)
+        observation, _, failed, _, _ = env.step(hand_action(velocity))
         if failed:  # it was put back as it was when the table was set
             self._push = None
             self._place_objects()

@@ -21,6 +21,7 @@ from signimit_envs.studio.viewers import Viewer, Viewers
 client = pytest.importorskip("websockets.sync.client", reason="the studio needs signimit[studio]")
 exceptions = pytest.importorskip("websockets.exceptions")
 Json = dict[str, Any]
+FRAMES = 100  # after so many a page has seen what it waits for
 BAD, TOO_MANY, NO_ROOM = 4400, 4429, 4503
 
 
@@ -81,7 +82,7 @@ def test_two_pages_get_the_frames_of_one_simulation(page: Any, socket: Any, taug
         answer = page.post(f"sessions/{taught_id}/ask", {"signs": page.signs(taught_id, request, 5)})
         seen = []
         for one in (socket, other):
-            frames = (_next_frame(one)[0] for _ in iter(int, 1))
+            frames = (_next_frame(one)[0] for _ in range(FRAMES))
             seen.append(next(header for header in frames if header["moving"] and header["session"] == taught_id))
     assert [header["answer"] for header in seen] == [answer["number"]] * 2
     assert seen[0]["text"] == seen[1]["text"] == answer["text"]
@@ -92,7 +93,7 @@ def test_who_drags_an_object_sees_it_move(page: Any, socket: Any, session: Json)
     page.post(f"sessions/{session['id']}/table", {})
     _say(socket, type="watch", on=True)
     _say(socket, type="drag", object=1, to=[0.1, -0.2])
-    frames = (_next_frame(socket)[0] for _ in iter(int, 1))
+    frames = (_next_frame(socket)[0] for _ in range(FRAMES))
     assert any(header["objects"][1] == [0.1, -0.2] for header in frames)
 
 
