@@ -44,7 +44,8 @@ def draw_calibration(calibration: Calibration) -> Figure:
     left.plot([0, 1], [0, 1], color=GREY, linewidth=0.8)
     left.scatter(calibration.confidence, calibration.accuracy, 10 + 4 * np.sqrt(calibration.counts), color=BLUE)
     for x, y, n in zip(calibration.confidence, calibration.accuracy, calibration.counts, strict=True):
-        left.annotate(f"{n}", (x, y), (4, -10), textcoords="offset points", fontsize=7, color=GREY)
+        below = -6 - np.sqrt(10 + 4 * np.sqrt(n)) / 2  # clear of the dot, whose area it is; points
+        left.annotate(f"{n}", (x, y), (0, below), textcoords="offset points", fontsize=7, color=GREY, ha="right")
     left.set(xlabel="confidence", ylabel="share that was right", xlim=(0, 1.03), ylim=(0, 1.03))
     left.set_title(f"expected calibration error {calibration.error:.3f}", fontsize=10)
     right.plot(100 * calibration.coverage, 100 * calibration.risk, color=BLUE)
