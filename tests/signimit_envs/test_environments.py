@@ -117,7 +117,11 @@ def test_an_episode_is_cut_after_twelve_seconds(env: gym.Env[Any, Any]) -> None:
     assert env.spec.max_episode_steps == 600
 
 
-@pytest.mark.parametrize("kind", [gym.VectorizeMode.SYNC, gym.VectorizeMode.ASYNC])
+@pytest.mark.parametrize(
+    ("env", "kind"),
+    [*((name, gym.VectorizeMode.SYNC) for name in ENV_IDS), (ENV_IDS[0], gym.VectorizeMode.ASYNC)],
+    indirect=["env"],
+)
 def test_vectorised_environments_agree_with_single_ones(env: gym.Env[Any, Any], kind: gym.VectorizeMode) -> None:
     options = {"context": "spawn"} if kind == gym.VectorizeMode.ASYNC else {}
     assert env.spec is not None

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from signimit_envs.studio.loopback import studio_process
+from signimit_envs.studio.serving import StudioPlan, running_studio
 
 expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
 Visit = Callable[..., Any]
@@ -46,7 +47,7 @@ def test_what_is_half_drawn_is_there_after_a_reload_and_in_a_new_tab_after_a_kil
         first.see("#connection", "No connection")
         first.problems.clear()  # the browser reports each attempt to connect
         first.page.close()
-    with studio_process(tmp_path) as (address, _):
+    with running_studio(StudioPlan(folder=tmp_path)) as address:
         second = visit(address=address)
         second.open("teach", name)
         expect(drawn(second, 1)).to_be_visible()
