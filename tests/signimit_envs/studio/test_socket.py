@@ -21,7 +21,7 @@ from signimit_envs.studio.viewers import Viewer, Viewers
 client = pytest.importorskip("websockets.sync.client", reason="the studio needs signimit[studio]")
 exceptions = pytest.importorskip("websockets.exceptions")
 Json = dict[str, Any]
-FRAMES = 100  # after so many a page has seen what it waits for
+FRAMES = 1000  # after so many a page has seen what it waits for, on a busy machine too
 BAD, TOO_MANY, NO_ROOM = 4400, 4429, 4503
 
 

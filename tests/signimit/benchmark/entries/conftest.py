@@ -20,7 +20,7 @@ def paper_session() -> BenchmarkSession:
     return get_session(get_split("paper"), 0)
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def observed() -> Observed:
     """Makes an entry that has observed a session as it is, however many demonstrations it would have liked."""
 

@@ -8,7 +8,7 @@ import pytest
 
 from signimit.benchmark.entries import ENTRANTS
 from signimit.benchmark.obeying import obey
-from signimit.benchmark.protocol import Entrant, Kit, Observation, Oracle
+from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle
 from signimit.benchmark.registry import EntrantReference
 from signimit.benchmark.running import Task, make_entry, run_task
 from signimit.benchmark.sessions import BenchmarkSession, Lesson
@@ -19,9 +19,14 @@ from signimit.languages import Language, Request
 FAST = [name for name in ENTRANTS if name != "clone-mlp" and not name.startswith("deep")]
 
 
-@pytest.fixture(params=FAST)
+@pytest.fixture(scope="module", params=FAST)
 def name(request: pytest.FixtureRequest) -> str:
     return str(request.param)
+
+
+@pytest.fixture(scope="module")
+def entry(name: str, paper_session: BenchmarkSession, observed: Any) -> Entry:
+    return observed(name, paper_session)  # type: ignore[no-any-return]
 
 
 def test_names_are_those_of_the_table() -> None:
@@ -37,8 +42,7 @@ def test_the_same_session_gives_the_same_bytes(name: str, paper_session: Benchma
     assert once == again
 
 
-def test_velocities_are_finite_wherever_the_hand_is(name: str, paper_session: BenchmarkSession, observed: Any) -> None:
-    entry = observed(name, paper_session)
+def test_velocities_are_finite_wherever_the_hand_is(entry: Entry, paper_session: BenchmarkSession) -> None:
     for command in paper_session.commands[:3]:
         entry.begin(command.signs, command.objects)
         for hand in (command.objects[0], np.array([1.5, -2.0]), np.zeros(2)):
@@ -47,10 +51,9 @@ def test_velocities_are_finite_wherever_the_hand_is(name: str, paper_session: Be
             assert np.isfinite(velocity).all()
 
 
-def test_what_is_given_is_left_as_it_was(name: str, paper_session: BenchmarkSession, observed: Any) -> None:
+def test_what_is_given_is_left_as_it_was(entry: Entry, paper_session: BenchmarkSession) -> None:
     command = paper_session.commands[0]
     signs, objects = tuple(s.copy() for s in command.signs), command.objects.copy()
-    entry = observed(name, paper_session)
     entry.begin(signs, objects)
     hand = command.hand.copy()
     entry.act(Observation(hand, np.zeros(2), 0.0))
