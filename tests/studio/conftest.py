@@ -29,13 +29,14 @@ ARGUMENTS = (
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
+    "--disable-gpu",
     "--disable-quic",
     "--disable-frame-rate-limit",  # each input event waits for a frame
     "--disable-gpu-vsync",
     *(["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []),
 )
 PATIENCE = 30_000  # ms, on a busy machine
-SIGN_POINTS, MOVEMENT_POINTS = 8, 24
+SIGN_POINTS, MOVEMENT_POINTS = 8, 18
 FINGER = 7  # its number, on the touch screen
 
 

@@ -198,6 +198,12 @@ def test_a_session_is_looked_at_exported_imported_and_merged(
     page.locator(".matrix").hover(position={"x": 200, "y": 10})
     visitor.see("#matrix-told", "/ rad²")
     page.locator("#look-figures details[open] img").wait_for()
+    page.locator("#look-figures details[open] a").first.focus()
+    with page.expect_popup() as opened:
+        page.keyboard.press("Enter")
+    opened.value.locator("img").wait_for()
+    assert opened.value.url.endswith("/figures/4.png")
+    opened.value.close()
     page.locator("#replay-choice").select_option("demonstrations/3")
     visitor.see("#replay-sentence", "Understood: movement")
 

@@ -26,14 +26,15 @@ export class Look {
   }
 
   figure(number) {
-    const picture = make("img", { alt: `Figure ${number}: ${FIGURES[number]}`, hidden: true });
+    const picture = make("img", { alt: `Figure ${number}: ${FIGURES[number]}` });
+    const whole = make("a", { target: "_blank", title: "Open at full size", hidden: true }, picture);
     const note = make("p", { className: "quiet" });
     const link = (suffix) => make("a", { textContent: suffix.toUpperCase(), download: `figure-${number}.${suffix}` });
     const links = ["png", "svg"].map(link);
     const row = make("p", { className: "links", hidden: true }, "Download ", ...links);
-    const box = make("details", { open: number === "4" }, make("summary", { textContent: `${number} · ${FIGURES[number]}` }), note, picture, row);
+    const box = make("details", { open: number === "4" }, make("summary", { textContent: `${number} · ${FIGURES[number]}` }), note, whole, row);
     box.addEventListener("toggle", () => this.load(number));
-    this.figures.set(number, { box, picture, note, row, links, made: "", of: "" });
+    this.figures.set(number, { box, picture, whole, note, row, links, made: "", of: "" });
     return box;
   }
 
@@ -58,7 +59,7 @@ export class Look {
     const wanted = (figure.made = this.state(number));
     const { id } = store.session;
     if (figure.of !== store.session.id) this.present(figure, false); // another session's
-    figure.note.textContent = figure.picture.hidden ? "The figure is being drawn…" : OLD;
+    figure.note.textContent = figure.whole.hidden ? "The figure is being drawn…" : OLD;
     try {
       const drawn = await blob(path(`figures/${number}.png`));
       if (figure.made !== wanted) return;
@@ -67,6 +68,7 @@ export class Look {
       figure.note.textContent = "";
       figure.of = id;
       figure.links.forEach((link, i) => (link.href = `api/${path(`figures/${number}.${["png", "svg"][i]}`)}`));
+      figure.whole.href = figure.links[0].href;
       this.present(figure, true);
     } catch (problem) {
       if (figure.made !== wanted) return;
@@ -76,7 +78,7 @@ export class Look {
     }
   }
 
-  present({ picture, row }, there) {
-    picture.hidden = row.hidden = !there;
+  present({ whole, row }, there) {
+    whole.hidden = row.hidden = !there;
   }
 }
