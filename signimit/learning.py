@@ -146,7 +146,7 @@ class ImitationModel:
         Raises:
             InvalidInputError: As `respond`, and if ``least`` is no probability.
         """
-        if not 0.0 <= least <= 1.0:
+        if not 0.0 <= float(finite_array(least, "least", ())) <= 1.0:
             raise InvalidInputError("least", "a probability from 0 to 1", f"{least}")
         response = self.respond(signs, objects)
         return response if response.confidence >= least else None
@@ -167,6 +167,8 @@ class ImitationModel:
     def observe(self, demonstration: Demonstration) -> Self:
         """Return a model that has seen one demonstration more; N distances are measured, not N² as by `learn`.
 
+        Policies that were made already are kept for movements whose demonstrations and foci have not changed.
+
         Raises:
             InvalidInputError: If it differs in words or objects from the others, or the method cannot go on.
         """
@@ -175,7 +177,15 @@ class ImitationModel:
             raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
         demos = DemonstrationSet([*self.demonstrations, demonstration])
         understanding = frozen(learner.extend(demos, self.understanding))
-        return type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
+        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
+        made = {self._shown(m): policy for m, policy in self._policies.items()}
+        unchanged = {m: later._shown(m) for m in range(len(later.movements)) if later._shown(m) in made}
+        later._policies.update({m: made[shown] for m, shown in unchanged.items()})
+        return later
+
+    def _shown(self, movement: int) -> tuple[tuple[int, int], ...]:
+        """All that a policy is made of: the demonstrations of a movement, each with its focus."""
+        return tuple((t, int(self.focus[t])) for t in self.movements[movement].members)
 
     def most_informative(self, scenes: ArrayLike) -> Query:
         """Say what to ask for next, and where, so that the answer teaches most.

@@ -21,6 +21,6 @@ def get_learner(method: str) -> Learner:
     Raises:
         UnknownNameError: If there is none.
     """
-    if method not in LEARNERS:
+    if not isinstance(method, str) or method not in LEARNERS:
         raise UnknownNameError("method", method, LEARNERS)
     return LEARNERS[method]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import InvalidInputError
 from signimit.learners.places import common_place_evidence
 from signimit.learners.vocabulary import cross_sign_distances, sign_features
 from signimit.traces import distances_to, make_trace, trace_distances
@@ -32,6 +33,9 @@ def extended_distances(
     """
     count, frames = len(demonstrations) - 1, demonstrations.objects.shape[1]
     words = len(demonstrations[0].signs)
+    for name in ("distances", "sign_distances"):
+        if name not in known:
+            raise InvalidInputError("diagnostics", f"{name}, which the joint learner measures", "none")
     drawings, signs = np.zeros((count + 1, count + 1, frames, frames)), np.zeros((words, count + 1, count + 1))
     drawings[:-1, :-1] = finite_array(known["distances"], "distances", (count, count, frames, frames))
     signs[:, :-1, :-1] = finite_array(known["sign_distances"], "sign distances", (words, count, count))

@@ -2,11 +2,12 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
-from signimit import DemonstrationSet, ImitationModel, InvalidInputError, learn
+from signimit import DemonstrationSet, ImitationModel, InvalidInputError, UnknownNameError, learn
 from signimit.composition import compose_demonstrations
 from signimit.languages import PAPER_LANGUAGE
 from signimit.people import synthetic_library
@@ -43,6 +44,19 @@ def test_observing_leaves_the_old_model_as_it_was_and_goes_on_from_a_file(tmp_pa
     assert "9 demonstrations show" in str(more.explain())
 
 
+def test_policies_are_kept_where_neither_members_nor_foci_changed() -> None:
+    demos = session(2)
+    model = learn(DemonstrationSet(demos[:8]), policy="knn")
+    old = [model.policy(m) for m in range(len(model.movements))]
+    more = model.observe(demos[8])
+    joined = int(more.labels[8])
+    for m, movement in enumerate(more.movements):
+        same = [n for n, other in enumerate(model.movements) if other.members == movement.members]
+        assert (more.policy(m) in old) == (m != joined)
+        assert all(more.policy(m) is old[n] for n in same)
+    np.testing.assert_array_equal(more.focus[:8], model.focus)
+
+
 def test_what_does_not_fit_is_refused() -> None:
     demos = session(2)
     model = learn(DemonstrationSet(demos[:3]))
@@ -53,3 +67,19 @@ def test_what_does_not_fit_is_refused() -> None:
         paper.observe(demos[3])
     with pytest.raises(InvalidInputError, match="probabilities"):
         paper.explain()
+    bare = replace(model, understanding=model.understanding._replace(diagnostics={}))
+    with pytest.raises(InvalidInputError, match="diagnostics: expected distances"):
+        bare.observe(demos[3])
+
+
+@pytest.mark.parametrize("least", [-0.1, 1.1, float("nan"), "0.5", None, [0.1, 0.2]])
+def test_what_is_no_probability_is_refused(least: Any) -> None:
+    demos = session(2)
+    with pytest.raises(InvalidInputError, match="least: expected"):
+        learn(demos[:2]).respond_if_sure(demos[0].signs, demos[0].objects, least)
+
+
+def test_a_method_that_is_no_name_is_refused() -> None:
+    names: Any = ["joint"]
+    with pytest.raises(UnknownNameError, match="Unknown method"):
+        learn(session(2)[:2], method=names)

@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit import Demonstration, DemonstrationSet, ImitationModel, learn
+from signimit import Demonstration, DemonstrationSet, ImitationModel, WordOrder, learn
 from signimit.composition import GroundTruth, Language, Request, compose_demonstrations, compose_utterance
+from signimit.learners.evidence import DRAWINGS, SIGNS
+from signimit.learners.joint import Scale, Weighing, look
+from signimit.learners.search import score_explanation
 from signimit.people import synthetic_library
 from signimit.strokes import StrokeLibrary
 
@@ -161,6 +164,30 @@ def test_a_saved_model_answers_as_before(tmp_path: Path) -> None:
     signs = compose_utterance(PLAIN, people(PLAIN, 0)[0], 1, 2, np.random.default_rng(3))
     ours, theirs = (m.respond(signs, shown(PLAIN, 0)[0][0].objects) for m in (model, loaded))
     assert (ours.movement, ours.focus, ours.confidence) == (theirs.movement, theirs.focus, theirs.confidence)
+
+
+def test_evidence_that_is_remembered_is_that_of_a_fresh_weighing() -> None:
+    seen = look(shown(PLAIN, 0)[0])
+    weighing, scales = Weighing(seen, DRAWINGS, SIGNS), [Scale(-1.4, -1.1), Scale(-1.0, -0.9), Scale(-1.2, -1.3)]
+    for order in (WordOrder(0, 1), WordOrder(1, 0)):
+        for scale in scales * 2:  # more of them than are remembered
+            remembered, fresh = (w.evidence(order, scale) for w in (weighing, Weighing(seen, DRAWINGS, SIGNS)))
+            for ours, theirs in zip(remembered, fresh, strict=True):
+                np.testing.assert_array_equal(ours, theirs)
+
+
+def test_nobody_is_compared_with_oneself() -> None:
+    demos, everyone = shown(PLAIN, 0)[0], np.arange(12)
+    evidence = Weighing(look(demos), DRAWINGS, SIGNS).evidence(WordOrder(0, 1), Scale(-1.2, -1.1))
+    for table in (evidence.drawing, evidence.movement_word, evidence.focus_word):
+        assert not table[everyone, everyone].any()
+        assert table.any()
+    for t in everyone:
+        table = evidence.movement_word.copy()
+        table[t, t] = 100.0
+        assert score_explanation(evidence._replace(movement_word=table), everyone * 0, everyone * 0) == (
+            score_explanation(evidence, everyone * 0, everyone * 0)
+        )
 
 
 def one_word(demos: DemonstrationSet) -> list[Demonstration]:
