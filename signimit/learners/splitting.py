@@ -22,6 +22,7 @@ _EVEN_ODDS = 0.6  # contrast at which one movement and two are equally likely
 _SLOPE = 5.0  # nats for each unit of contrast and member of the smaller half: of many it is less likely by chance
 _PRICE = 0.5  # of the objective's prices, which are made for sums over pairs as if these were independent
 _MOST_FOR_BALANCE = 1.0  # nats that more equal sizes may speak for a split; they alone are no reason
+_COPY = np.log(0.01)  # nobody draws or signs as closely twice: a demonstration that was recorded or passed twice
 _MOST = 10.0  # nats that a contrast may be worth; more would be sure of what was never measured
 
 
@@ -74,10 +75,15 @@ def _halves(distances: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def _contrast(logs: NDArray[np.float64], second: NDArray[np.bool_]) -> float:
-    """How much farther apart pairs across are than pairs within, in the mean of log distances, shape (n, n)."""
-    upper = np.triu(np.ones_like(logs, dtype=bool), 1)
+    """How much farther apart pairs across are than pairs within, in the mean of log distances, shape (n, n).
+
+    Copies say nothing about how alike a person draws, and are left out.
+    """
+    pairs = np.triu(logs > _COPY, 1)
     across = second[:, None] != second[None]
-    return float(logs[across].mean() - logs[upper & ~across].mean())
+    if not (pairs & across).any() or not (pairs & ~across).any():
+        return 0.0
+    return float(logs[pairs & across].mean() - logs[pairs & ~across].mean())
 
 
 def _price_of_split(labels: NDArray[np.int64], half: NDArray[np.intp]) -> float:

@@ -227,6 +227,13 @@ def test_degenerate_sets_are_answered(kind: str) -> None:
     assert np.isfinite(response.policy(np.zeros(2))).all()
 
 
+@pytest.mark.parametrize("copies", [2, 12])
+def test_demonstrations_passed_twice_make_no_new_movements(copies: int) -> None:
+    demos, truth = shown(PLAIN, 0)
+    model = learn(DemonstrationSet([*demos, *list(demos)[:copies]]))
+    assert same_partition(model.labels, np.append(truth.movement, truth.movement[:copies]))
+
+
 def test_the_same_demonstration_again_and_again_is_one_movement() -> None:
     model = learn(DemonstrationSet([shown(PLAIN, 0)[0][0]] * 5))
     assert model.labels.tolist() == [0] * 5
