@@ -29,7 +29,6 @@ ARGUMENTS = (
     "--disable-component-update",
     "--disable-sync",
     "--no-first-run",
-    "--disable-gpu",
     "--disable-quic",
     "--disable-frame-rate-limit",  # each input event waits for a frame
     "--disable-gpu-vsync",
