@@ -113,10 +113,10 @@ DRAWINGS = DistanceModel(
     akin_spread=0.2,
 )
 SIGNS = DistanceModel(
-    equal_mean=-1.1,
+    equal_mean=-1.17,
     equal_mean_spread=0.25,
     equal_spread=0.36,
-    other_mean=-0.21,
+    other_mean=-0.23,
     other_spread=0.21,
     odd_share=0.3,
     chance_share=0.05,

@@ -1,9 +1,9 @@
 """Signs compared with each other, not with prototypes: every sign that was seen helps to read the next one.
 
-A sign is a set of samples, each with a place and the direction of the pen; where in the sign it comes does not matter.
-A sample's gap is that to the sample of the other sign that is nearest in both at once, and the distance of two signs is
-their mean gap. A gap never counts for more than a limit: a base line under a "1" does not outweigh the stem that all
-"1" share.
+Half of a sign's slant is taken out. It is then a set of samples, each with a place and the direction of the pen; where
+in the sign it comes does not matter. A sample's gap is that to the sample of the other sign that is nearest in both at
+once, and the distance of two signs is their mean gap. A gap never counts for more than a limit: a base line under a "1"
+does not outweigh the stem that all "1" share.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ from signimit.validation import moving_points
 _SAMPLES = 32
 _DIRECTION = 1.2  # weight of a unit direction, against the sign's root mean square radius
 _LARGEST_GAP = 1.2  # in the same unit
+_MOST_SHEAR = 0.5
+_FLATNESS = 0.05  # share of the width that counts as height: the slant of a flat sign is nothing
 _SHARPNESS = 10.0  # a meaning weighs as the mean of distance ** -10 over its signs: near ones count, far ones hardly
 _PAIRS = 2**9  # pairs that are compared at once
 _SECONDS = 3e-6  # that numpy takes for a sign beside another
@@ -38,12 +40,19 @@ def sign_features(signs: Sequence[ArrayLike]) -> NDArray[np.float64]:
 
 
 def _describe(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    path = resampled_path(points / np.abs(points).max(), _SAMPLES)
+    path = resampled_path(_less_slanted(resampled_path(points / np.abs(points).max(), 2 * _SAMPLES)), _SAMPLES)
     path = path - path.mean(axis=0)
     path /= np.sqrt((path * path).sum(axis=1).mean())
     along = np.gradient(path, axis=0)
     angle = np.arctan2(along[:, 1], along[:, 0])
     return np.column_stack([path, _DIRECTION * np.cos(angle), _DIRECTION * np.sin(angle)])
+
+
+def _less_slanted(path: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Shear a path, shape (T, 2), until half of its slant is left: hands differ in it, but "/" is not "|"."""
+    x, y = (path - path.mean(axis=0)).T
+    slant = (x * y).mean() / ((y * y).mean() + _FLATNESS * (x * x).mean())
+    return path - np.outer(path[:, 1], [np.clip(slant / 2, -_MOST_SHEAR, _MOST_SHEAR), 0.0])
 
 
 def sign_distances(features: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, WordOrder
-from signimit.learners.vocabulary import VocabularyReader, sign_distances, sign_features
+from signimit.learners.vocabulary import VocabularyReader, cross_sign_distances, sign_distances, sign_features
 from signimit.people import synthetic_library
 from signimit.understanding import Understanding
 
@@ -53,6 +53,19 @@ def test_a_stroke_more_makes_it_less_of_another_sign_than_another_sign_is() -> N
     two = np.concatenate([head, np.linspace(head[-1], [-0.6, -1.0], 25), np.linspace([-0.6, -1.0], [0.6, -1.0], 15)])
     to_itself, to_stem, to_two = sign_distances(sign_features([with_base, stem, two]))[0]
     assert to_itself == 0 < to_stem < to_two
+
+
+def test_a_hand_that_slants_more_makes_the_same_signs(digits: list[Array]) -> None:
+    slanted = [sign @ [[1.0, 0.0], [0.6, 1.0]] for sign in digits]
+    table = cross_sign_distances(sign_features(slanted), sign_features(digits))
+    meaning = np.repeat([0, 1, 2], 3)
+    np.testing.assert_array_equal(meaning[table.argmin(axis=1)], meaning)
+
+
+def test_strokes_that_differ_in_slant_alone_are_still_told_apart() -> None:
+    upright, leaning, fallen = ([(-x, -1.0), (x, 1.0)] for x in (0.0, 0.7, -0.7))
+    table = sign_distances(sign_features([upright, leaning, fallen]))
+    assert table[~np.eye(3, dtype=bool)].min() > 0.25
 
 
 def test_a_straight_line_drawn_the_other_way_is_another_sign() -> None:
