@@ -58,7 +58,7 @@ def group_movements(
         InvalidInputError: If the similarity is not such a matrix or ``steps`` is negative.
         UnknownNameError: If there is no such method.
     """
-    if method not in _PUSHES:
+    if method not in tuple(_PUSHES):
         raise UnknownNameError("grouping method", method, _PUSHES)
     gamma = _checked_similarity(similarity)
     if not isinstance(steps, (int, np.integer)) or steps < 0:

@@ -157,7 +157,7 @@ class ImitationModel:
         Raises:
             UnknownNameError: If there is no such movement.
         """
-        if movement not in range(len(self.movements)):
+        if not isinstance(movement, (int, np.integer)) or movement not in range(len(self.movements)):
             raise UnknownNameError("movement", movement, [str(m) for m in range(len(self.movements))])
         if movement not in self._policies:
             _, paths, times = self.movements[movement]

@@ -17,7 +17,7 @@ from signimit.policies import POLICY_KINDS
 from signimit.signs import prototype_points
 from signimit.strokes import cut, flatten
 from signimit.understanding import Understanding
-from signimit.validation import whole_numbers
+from signimit.validation import float_array, whole_numbers
 
 KIND, VERSION = "imitation model", 1
 
@@ -100,6 +100,10 @@ def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: Demonstration
     focus = _indices(arrays["focus"], "focus", (count,), frames)
     order = _indices(arrays["word_order"], "word order", (2,), words)
     diagnostics = _part(arrays, "diagnostics__")
+    shapes = {"focus_probability": (count, frames), "movement_probability": (count, int(labels.max()) + 2)}
+    shapes["word_order_evidence"] = (words, words)
+    for name in shapes.keys() & diagnostics.keys():
+        float_array(diagnostics[name], name.replace("_", " "), shapes[name])
     return frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), diagnostics))
 
 

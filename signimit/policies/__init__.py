@@ -50,7 +50,7 @@ def make_policy(paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: st
         InvalidInputError: If a demonstration is not a timed path.
         UnknownNameError: If there is no such kind.
     """
-    if kind not in _CLASSES:
+    if kind not in POLICY_KINDS:
         raise UnknownNameError("policy kind", kind, POLICY_KINDS)
     return _CLASSES[kind].learn(check_demonstrations(paths, times))
 
