@@ -52,6 +52,8 @@ def main(
         mover: Whose strokes of that library; left out, somebody's.
         video: Whether to make the videos.
     """
+    from tqdm import tqdm
+
     from signimit_envs.session_figures import write_figures
 
     plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
@@ -59,7 +61,7 @@ def main(
     cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
     print(f"The signs are made by {cast.names[0]}, the movements by {cast.names[1]}.")
     with whole_files(out) as folder:
-        result = run_session(plan, cast)
+        result = run_session(plan, cast, lambda commands: tqdm(commands, "obeying", unit="command"))
         print(f"\n{result.model.summary()}\n\n{inference_lines(result)}\n\n{session_table(result)}\n")
         text = json.dumps(session_report(result, cast), indent=1, allow_nan=False)
         (folder / "results.json").write_text(text + "\n", encoding="utf-8")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -21,7 +21,6 @@ from signimit.scenes import sample_hand, sample_scene
 from signimit.strokes import Stroke
 from signimit_envs.casting import Cast
 from signimit_envs.reproduction import reproduce
-from signimit_envs.rollout import reproduce_many
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 
@@ -84,6 +83,9 @@ class Command(NamedTuple):
     signs: tuple[NDArray[np.float64], ...]
     scene: Scene
     seen: bool
+
+
+Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 
 class Answer(NamedTuple):
@@ -180,47 +182,38 @@ def compose_session(plan: SessionPlan, cast: Cast) -> Session:
     return Session(plan, demonstrations, prototypes, truth, commands)
 
 
-def run_session(plan: SessionPlan, cast: Cast) -> SessionResult:
+def run_session(plan: SessionPlan, cast: Cast, track: Track = iter) -> SessionResult:
     """Run a session on the physics.
 
     Args:
         plan: What is done.
         cast: Who makes the signs and shows the movements.
+        track: Passes the commands on as they are carried out, e.g. tqdm's progress bar.
 
     Raises:
         SignimitError: If something cannot be used.
     """
     session = compose_session(plan, cast)
     model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
-    answers = answer_commands(model, session.commands, plan.seconds)
-    performances = (
-        performed(answer.path, command.scene.objects, session.truth.templates)
-        for command, answer in zip(session.commands, answers, strict=True)
-    )
-    return SessionResult(session, model, tuple(map(Reproduction, session.commands, answers, performances)))
+    env = TabletopHandEnv(objects=plan.language.objects)
+    try:
+        reproductions = tuple(obey(command, model, session, env) for command in track(session.commands))
+    finally:
+        env.close()
+    return SessionResult(session, model, reproductions)
 
 
-def answer_commands(model: ImitationModel, commands: Sequence[Command], seconds: float) -> list[Answer]:
-    """Let the imitator answer commands with as many simulated arms, all at once.
-
-    Raises:
-        InvalidInputError: If signs, a scene or the duration cannot be used.
-    """
-    _check_seconds(seconds)
-    responses = [model.respond(command.signs, command.scene.objects) for command in commands]
-    hands = [command.scene.hand for command in commands]
-    tracks = reproduce_many([response.policy for response in responses], hands, seconds)
-    return [
-        # Where the physics failed, what a hand did ends there.
-        Answer(response.movement, response.focus, response.confidence, path[: steps + 1], joints[: steps + 1])
-        for response, path, joints, steps in zip(responses, tracks.paths, tracks.joints, tracks.steps, strict=True)
-    ]
+def obey(command: Command, model: ImitationModel, session: Session, env: TabletopHandEnv) -> Reproduction:
+    """Let the imitator answer one command, and judge what its hand did by what the demonstrator's had done."""
+    seconds = session.plan.seconds
+    answer = answer_signs(model, command.signs, command.scene, seconds, env)
+    return Reproduction(command, answer, performed(answer.path, command.scene.objects, session.truth.templates))
 
 
 def answer_signs(
     model: ImitationModel, signs: Sequence[ArrayLike], scene: Scene, seconds: float, env: TabletopHandEnv
 ) -> Answer:
-    """Let the imitator answer signs with the simulated arm of an environment, e.g. to go on from there or to render.
+    """Let the imitator answer signs with the simulated arm.
 
     Raises:
         InvalidInputError: If the signs, the scene or the duration cannot be used.

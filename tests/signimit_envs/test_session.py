@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -16,9 +17,8 @@ from signimit.inference import WordOrder
 from signimit.learning import learn
 from signimit_envs.casting import Cast, cast_people
 from signimit_envs.report import inference_lines, session_report, session_table, truth_text
-from signimit_envs.session import SessionPlan, SessionResult, answer_signs, compose_session, run_session
+from signimit_envs.session import Command, SessionPlan, SessionResult, compose_session, run_session
 from signimit_envs.study import repeats_paper, session_outcome, study_report, study_table
-from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.verdicts import (
     Share,
     failing_stage,
@@ -93,14 +93,16 @@ def test_the_seed_changes_the_session(cast: Cast) -> None:
     assert not np.array_equal(first, second)
 
 
-def test_each_command_is_answered_as_it_is_alone_in_the_environment(result: SessionResult) -> None:
-    env = TabletopHandEnv()
-    for command, answer, _ in result.reproductions[::4]:
-        alone = answer_signs(result.model, command.signs, command.scene, PLAN.seconds, env)
-        assert alone[:3] == answer[:3]
-        np.testing.assert_allclose(answer.path, alone.path, atol=1e-6)
-        np.testing.assert_allclose(answer.joints, alone.joints, atol=1e-5)
-    env.close()
+def test_progress_is_told_command_by_command(cast: Cast) -> None:
+    seen = []
+
+    def track(commands: Sequence[Command]) -> Iterator[Command]:
+        for command in commands:
+            seen.append(command.request)
+            yield command
+
+    run_session(replace(PLAN, seconds=1.0), cast, track)
+    assert seen == list(PLAN.language.requests)
 
 
 @pytest.mark.parametrize("wrong", [{"seed": -1}, {"attempts": 0}, {"seconds": 0.5}, {"seconds": float("nan")}])
