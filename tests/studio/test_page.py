@@ -45,8 +45,8 @@ def test_what_is_half_drawn_is_there_after_a_reload_and_in_a_new_tab_after_a_kil
         first.until_kept("question")
         os.kill(process, signal.SIGKILL)
         first.see("#connection", "No connection")
-        first.problems.clear()  # the browser reports each attempt to connect
         first.page.close()
+        first.problems.clear()  # the browser reported each attempt to connect
     with running_studio(StudioPlan(folder=tmp_path)) as address:
         second = visit(address=address)
         second.open("teach", name)
