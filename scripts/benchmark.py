@@ -10,14 +10,14 @@ from typing import Literal
 from tqdm import tqdm
 
 from signimit.benchmark.engines import Engine, local_engine
-from signimit.benchmark.frozen import SESSIONS
 from signimit.benchmark.registry import entrant_names, refer_to
 from signimit.benchmark.results import ResultFile, read_summaries, run_missing, write_summary
+from signimit.benchmark.shipped_sessions import SESSIONS
 from signimit.benchmark.splits import choose_splits
 from signimit.benchmark.tables import MANY, hours_for, leaderboard, overview
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
-from signimit.output import whole_files
+from signimit.io.output import whole_files
+from signimit_envs.cli.command_line import run_program
 
 OUT = Path("out/benchmark")
 
@@ -66,7 +66,7 @@ def main(
         print(overview(summaries))
         print(f"Written to {out / 'README.md'}.")
     else:
-        from signimit.benchmark.figures import draw_results
+        from signimit.plots.benchmark import draw_results
 
         figure = draw_results(read_summaries(out))
         with whole_files(out) as folder:

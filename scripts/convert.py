@@ -6,13 +6,13 @@ from __future__ import annotations
 import sys
 from typing import Literal
 
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
+from signimit_envs.cli.command_line import run_program
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.recording import Recording
 from signimit_envs.recording.formats import MINARI_PREFIX, read_data, write_data
 from signimit_envs.recording.formats.lerobot.recordings import SIZE, write_lerobot_recording
-from signimit_envs.rendering import choose_backend
+from signimit_envs.video.rendering import choose_backend
 
 
 def main(

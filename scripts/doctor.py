@@ -12,7 +12,7 @@ def main() -> None:
     """Print one line for each thing that was looked at."""
     argparse.ArgumentParser(description=__doc__).parse_args()  # no tyro: it may be what is missing
     try:
-        from signimit_envs.diagnosis import diagnose
+        from signimit_envs.cli.doctor import diagnose
     except (ImportError, AttributeError, RuntimeError) as error:
         sys.exit(explain(error))
     findings = diagnose()

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from signimit.command_line import run_program
-from signimit.formats import inventory_table, read_strokes, write_inkml
-from signimit.relabelling import renamed, selected, with_mirror_images
+from signimit.io.formats import inventory_table, read_strokes, write_inkml
+from signimit.teaching.people.relabelling import renamed, selected, with_mirror_images
+from signimit_envs.cli.command_line import run_program
 
 
 def main(

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from tqdm import tqdm
 
-from signimit.command_line import run_program
+from signimit.benchmark.studies.lasa import ReproductionError, find_lasa, reproduce, reproduction_error
 from signimit.policies import POLICY_KINDS, make_policy
-from signimit.policies.lasa import ReproductionError, find_lasa, reproduce, reproduction_error
+from signimit_envs.cli.command_line import run_program
 
 
 def main(*, folder: Path | None = None, kinds: tuple[str, ...] = POLICY_KINDS, out: Path = Path("lasa.csv")) -> None:

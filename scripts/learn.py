@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from signimit.command_line import run_program
 from signimit.demonstrations import DemonstrationSet
-from signimit.languages import PAPER_LANGUAGE
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
 from signimit.strokes import StrokeLibrary
+from signimit.teaching.languages import PAPER_LANGUAGE
+from signimit_envs.cli.command_line import run_program
 
 
 def main(
@@ -44,7 +44,7 @@ def main(
     model = learn(demos, strokes, method, policy, seed)
     print(model.summary() if why is None else model.explain())
     if why is not None:
-        from signimit.explanation_figures import draw_explanation
+        from signimit.plots.explanation import draw_explanation
 
         draw_explanation(model).savefig(why, dpi=110)
     model.save(out)

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.command_line import run_program
-from signimit.output import whole_files
+from signimit.io.output import whole_files
 from signimit.strokes import StrokeLibrary
-from signimit_envs.casting import Source, cast_people
-from signimit_envs.report import truth_text
-from signimit_envs.session import SessionPlan, compose_session
+from signimit.teaching.people.casting import Source, cast_people
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.sessions.report import truth_text
+from signimit_envs.sessions.session import SessionPlan, compose_session
 
 
 def main(

@@ -12,13 +12,13 @@ import numpy as np
 from tqdm import tqdm
 
 import signimit
-from signimit.command_line import run_program
-from signimit.output import whole_files
-from signimit.people import GOAL_LABELS, MOVEMENT_LABELS, synthetic_library
+from signimit.benchmark.studies.policies import StudyPlan, Trial, compose_lessons, run_study, study_table, summarise
+from signimit.io.output import whole_files
+from signimit.plots.policy_field import draw_portraits
 from signimit.policies import POLICY_KINDS, make_policy
-from signimit.policies.portrait import draw_portraits
-from signimit.policies.study import StudyPlan, Trial, compose_lessons, run_study, study_table, summarise
 from signimit.strokes import StrokeLibrary
+from signimit.teaching.people import GOAL_LABELS, MOVEMENT_LABELS, synthetic_library
+from signimit_envs.cli.command_line import run_program
 
 PEOPLE = 10  # synthetic, unless a library is given
 PORTRAYED = 8  # movements in a picture

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from signimit.atomic import replaced_file
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
 from signimit.intervals import wilson_interval
+from signimit.io.safe_files import replaced_file
+from signimit_envs.cli.command_line import run_program
 
 ROOT = Path(__file__).parent.parent
 RESULTS = ROOT / "results"

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.command_line import run_program
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
-from signimit_envs.casting import cast_people
+from signimit.teaching.people.casting import cast_people
+from signimit_envs.cli.command_line import run_program
 from signimit_envs.recording import record_reproductions, save_recording
 from signimit_envs.recording.formats import check_vacant_file
-from signimit_envs.session import SessionPlan, compose_session
+from signimit_envs.sessions.session import SessionPlan, compose_session
 
 
 def main(

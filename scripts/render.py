@@ -8,17 +8,17 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
 from signimit.learning import ImitationModel
-from signimit.scenes import sample_hand, sample_scene
 from signimit.strokes import StrokeLibrary
 from signimit.summary import object_name
-from signimit_envs.films import film_shots
-from signimit_envs.session import Scene, answer_signs
-from signimit_envs.storyboard import FRAME_RATE, show_answer
+from signimit.teaching.scenes import sample_hand, sample_scene
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.sessions.session import Scene, answer_signs
 from signimit_envs.tabletop_hand import TabletopHandEnv
-from signimit_envs.video import write_video
+from signimit_envs.video.films import film_shots
+from signimit_envs.video.mp4 import write_video
+from signimit_envs.video.storyboard import FRAME_RATE, show_answer
 
 
 def main(

@@ -10,9 +10,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.archive import MAX_BYTES, write_archive
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
+from signimit.io.archive import MAX_BYTES, write_archive
+from signimit_envs.cli.command_line import run_program
 from signimit_envs.recording import (
     RecordedEpisode,
     Recording,
@@ -21,7 +21,7 @@ from signimit_envs.recording import (
     observe_states,
 )
 from signimit_envs.recording.formats import check_vacant_file, read_recording
-from signimit_envs.video import write_video
+from signimit_envs.video.mp4 import write_video
 
 
 def main(

@@ -8,16 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.command_line import run_program
-from signimit.output import whole_files
+from signimit.io.output import whole_files
 from signimit.policies import DEFAULT_POLICY
-from signimit_envs.casting import Source, cast_people
+from signimit.teaching.people.casting import Source, cast_people
+from signimit_envs.cli.command_line import run_program
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.films import film_grid, film_story
-from signimit_envs.report import inference_lines, session_report, session_table
-from signimit_envs.session import SessionPlan, SessionResult, run_session
-from signimit_envs.storyboard import FRAME_RATE
-from signimit_envs.video import write_video
+from signimit_envs.sessions.report import inference_lines, session_report, session_table
+from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
+from signimit_envs.video.films import film_grid, film_story
+from signimit_envs.video.mp4 import write_video
+from signimit_envs.video.storyboard import FRAME_RATE
 
 
 def main(
@@ -54,7 +54,7 @@ def main(
     """
     from tqdm import tqdm
 
-    from signimit_envs.session_figures import write_figures
+    from signimit_envs.sessions.figures import write_figures
 
     plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
     rng = np.random.default_rng([seed, 1])

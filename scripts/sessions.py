@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
-from signimit.output import whole_files
+from signimit.io.output import whole_files
 from signimit.policies import DEFAULT_POLICY
-from signimit_envs.casting import Source, cast_people
-from signimit_envs.session import SessionPlan, run_session
-from signimit_envs.study import SessionOutcome, session_outcome, study_report, study_table
+from signimit.teaching.people.casting import Source, cast_people
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.sessions.many_sessions import SessionOutcome, session_outcome, study_report, study_table
+from signimit_envs.sessions.session import SessionPlan, run_session
 
 
 def main(

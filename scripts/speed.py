@@ -7,12 +7,12 @@ from typing import Literal
 
 import numpy as np
 
-from signimit.command_line import run_program
-from signimit.composition import compose_demonstrations, compose_prototypes
-from signimit.languages import PAPER_LANGUAGE
-from signimit.people import synthetic_library
+from signimit.teaching.composition import compose_demonstrations, compose_prototypes
+from signimit.teaching.languages import PAPER_LANGUAGE
+from signimit.teaching.people import synthetic_library
 from signimit_envs import ENV_IDS
-from signimit_envs.measurements import (
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.timing.measurements import (
     compare_distances,
     compare_environment,
     installed_versions,

@@ -6,9 +6,9 @@ from __future__ import annotations
 import webbrowser
 from pathlib import Path
 
-from signimit.command_line import run_program
 from signimit.exceptions import InvalidInputError
-from signimit_envs.studio.serving import LOCAL, StudioPlan, serve_studio
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.studio.web.serving import LOCAL, StudioPlan, serve_studio
 
 
 def main(

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.command_line import run_program
 from signimit.validation import finite_array
+from signimit_envs.cli.command_line import run_program
 from signimit_envs.studio.load import measure_growth, measure_speed
 from signimit_envs.studio.loopback import studio_process
 

@@ -17,20 +17,14 @@ import scipy
 from tqdm import tqdm
 
 import signimit
-from signimit.command_line import run_program
-from signimit.exceptions import InvalidInputError
-from signimit.intervals import wilson_interval
-from signimit.output import whole_files
-from signimit.strokes import StrokeLibrary
-from signimit.study.asking import asking_cells, run_lessons
-from signimit.study.cells import Cell, People, study_cells
-from signimit.study.figures import draw_calibration, draw_cells, draw_growth, draw_lessons
-from signimit.study.folds import FoldRow, leave_people_out
-from signimit.study.records import OURS, Record, read_records, run_session, run_sessions
-from signimit.study.scaling import Measurement, measure_growth
-from signimit.study.scoring import calibrate
-from signimit.study.signs import METHODS, QUIZZES, SignRow, run_quizzes
-from signimit.study.tables import (
+from signimit.benchmark.studies.asking import asking_cells, run_lessons
+from signimit.benchmark.studies.cells import Cell, People, study_cells
+from signimit.benchmark.studies.left_out_people import FoldRow, leave_people_out
+from signimit.benchmark.studies.records import OURS, Record, read_records, run_session, run_sessions
+from signimit.benchmark.studies.scaling import Measurement, measure_growth
+from signimit.benchmark.studies.scoring import calibrate
+from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quizzes
+from signimit.benchmark.studies.tables import (
     LessonRow,
     Row,
     beaten_cells,
@@ -40,6 +34,12 @@ from signimit.study.tables import (
     tabulate_lessons,
     write_csv,
 )
+from signimit.exceptions import InvalidInputError
+from signimit.intervals import wilson_interval
+from signimit.io.output import whole_files
+from signimit.plots.studies import draw_calibration, draw_cells, draw_growth, draw_lessons
+from signimit.strokes import StrokeLibrary
+from signimit_envs.cli.command_line import run_program
 
 OUT = Path("results/study")
 UNDERSTOOD = 0.95  # share of commands that a lesson shall come to

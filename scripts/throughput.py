@@ -8,10 +8,10 @@ import shlex
 import sys
 from pathlib import Path
 
-from signimit.command_line import run_program
-from signimit.output import whole_files
-from signimit_envs.throughput.report import markdown, measure_throughput, report
-from signimit_envs.throughput.work import ThroughputPlan
+from signimit.io.output import whole_files
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.timing.throughput.report import markdown, measure_throughput, report
+from signimit_envs.timing.throughput.work import ThroughputPlan
 
 
 def main(

@@ -7,10 +7,10 @@ import time
 from pathlib import Path
 from typing import Any, Literal
 
-from signimit.command_line import run_program
-from signimit.output import whole_files
-from signimit_envs.training import TrainingPlan, evaluate_agent, train_ppo
-from signimit_envs.video_recorder import RecordMp4
+from signimit.io.output import whole_files
+from signimit_envs.cli.command_line import run_program
+from signimit_envs.cli.training import TrainingPlan, evaluate_agent, train_ppo
+from signimit_envs.video.record_mp4 import RecordMp4
 
 
 def main(

@@ -25,8 +25,6 @@ Metres, seconds, radians. Table frame: x right, y away from the arm's base, orig
 """
 
 from signimit.asking import Query as Query
-from signimit.composition import GroundTruth as GroundTruth
-from signimit.composition import compose_demonstrations as compose_demonstrations
 from signimit.demonstrations import Demonstration as Demonstration
 from signimit.demonstrations import DemonstrationSet as DemonstrationSet
 from signimit.evaluation import Performance as Performance
@@ -42,13 +40,10 @@ from signimit.grouping import group_movements as group_movements
 from signimit.inference import WordOrder as WordOrder
 from signimit.inference import infer_focus as infer_focus
 from signimit.inference import infer_word_order as infer_word_order
-from signimit.languages import PAPER_LANGUAGE as PAPER_LANGUAGE
-from signimit.languages import Language as Language
 from signimit.learning import ImitationModel as ImitationModel
 from signimit.learning import Movement as Movement
 from signimit.learning import Response as Response
 from signimit.learning import learn as learn
-from signimit.people import synthetic_library as synthetic_library
 from signimit.policies import POLICY_KINDS as POLICY_KINDS
 from signimit.policies import Policy as Policy
 from signimit.policies import StatefulPolicy as StatefulPolicy
@@ -62,5 +57,10 @@ from signimit.similarity import policy_distances as policy_distances
 from signimit.similarity import policy_similarities as policy_similarities
 from signimit.strokes import Stroke as Stroke
 from signimit.strokes import StrokeLibrary as StrokeLibrary
+from signimit.teaching.composition import GroundTruth as GroundTruth
+from signimit.teaching.composition import compose_demonstrations as compose_demonstrations
+from signimit.teaching.languages import PAPER_LANGUAGE as PAPER_LANGUAGE
+from signimit.teaching.languages import Language as Language
+from signimit.teaching.people import synthetic_library as synthetic_library
 
 __version__ = "0.1.0"

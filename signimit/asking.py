@@ -13,8 +13,8 @@ from scipy.special import entr
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
-from signimit.traces import make_trace
-from signimit.understanding import Understanding
+from signimit.learners.base import Understanding
+from signimit.learners.joint.drawing_distance import make_drawing
 
 _CLEAR = 1.5  # median half sizes of a drawing; objects this far apart are told from each other by 1 - 1/e
 
@@ -90,4 +90,4 @@ def _clarity(scenes: NDArray[np.float64], length: float) -> NDArray[np.float64]:
 
 
 def _median_half_size(demonstrations: DemonstrationSet) -> float:
-    return float(np.median([make_trace(d.hand, d.times).half_size for d in demonstrations]))
+    return float(np.median([make_drawing(d.hand, d.times).half_size for d in demonstrations]))

@@ -1,7 +1,7 @@
 """Demonstrations: exactly what the imitator may see, and nothing more (paper, section II-A).
 
 Labels, requested movements and the demonstrator's focus are not here and must never be; they live in
-`signimit.composition.GroundTruth`, with the evaluator.
+`signimit.teaching.composition.GroundTruth`, with the evaluator.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from typing import Any, Self, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit.io.archive import read_archive, write_archive
 from signimit.strokes import cut, flatten
 from signimit.validation import finite_array, increasing_times, item_list, moving_points
 

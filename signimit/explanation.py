@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
+from signimit.learners.base import Understanding
 from signimit.summary import object_name, ordinal, summarise
-from signimit.understanding import Understanding
 
 DOUBT = 0.1  # an object or a movement that is at least this probable beside the chosen one makes it ambiguous
 

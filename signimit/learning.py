@@ -15,15 +15,15 @@ from signimit.asking import Query, choose_query
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.explanation import Reasons, explain_understanding
-from signimit.frames import TablePolicy, on_table
 from signimit.inference import WordOrder
+from signimit.io.model_archive import ModelParts, check_policy_kind, frozen, read_model, write_model
 from signimit.learners import DEFAULT_METHOD, get_learner
-from signimit.model_archive import ModelParts, check_policy_kind, frozen, read_model, write_model
+from signimit.learners.base import IncrementalLearner, SignReader, Understanding
 from signimit.policies import DEFAULT_POLICY, Policy, make_policy
+from signimit.policies.frames import PlacedPolicy, on_table
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke
 from signimit.summary import summarise
-from signimit.understanding import IncrementalLearner, SignReader, Understanding
 from signimit.validation import finite_array, item_list, make_generator, moving_points
 
 
@@ -53,7 +53,7 @@ class Response(NamedTuple):
 
     movement: int
     focus: int
-    policy: TablePolicy
+    policy: PlacedPolicy
     confidence: float
 
 

@@ -11,8 +11,8 @@ from typing import Self, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.io.archive import read_archive, write_archive
 from signimit.validation import float_array, increasing_times, moving_points
 
 KIND, VERSION = "stroke library", 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signimit.understanding import Understanding
+from signimit.learners.base import Understanding
 
 OBJECT_NAMES = ("red", "green", "blue", "violet", "orange", "teal")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")

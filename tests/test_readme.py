@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.rendering import choose_backend
+from signimit_envs.video.rendering import choose_backend
 
 README = Path(__file__).parent.parent / "README.md"
 if not README.is_file():

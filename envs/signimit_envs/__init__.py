@@ -5,13 +5,13 @@ Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/Tableto
 
 import gymnasium as _gym
 
+from signimit_envs.arm.scene import CONTROL_RATE as CONTROL_RATE
 from signimit_envs.exceptions import RenderingError as RenderingError
-from signimit_envs.reproduction import HandTrack as HandTrack
-from signimit_envs.reproduction import reproduce as reproduce
-from signimit_envs.scene import CONTROL_RATE as CONTROL_RATE
-from signimit_envs.tabletop import TabletopEnv as TabletopEnv
+from signimit_envs.sessions.reproduction import HandTrack as HandTrack
+from signimit_envs.sessions.reproduction import reproduce as reproduce
+from signimit_envs.tabletop.env import TabletopEnv as TabletopEnv
 from signimit_envs.tabletop_hand import TabletopHandEnv as TabletopHandEnv
-from signimit_envs.video_recorder import RecordMp4 as RecordMp4
+from signimit_envs.video.record_mp4 import RecordMp4 as RecordMp4
 
 EPISODE_SECONDS = 12
 ENV_IDS = ("signimit/Tabletop-v0", "signimit/TabletopHand-v0")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from signimit_envs.tabletop import TabletopEnv
+from signimit_envs.tabletop.env import TabletopEnv
 
 
 class TabletopHandEnv(TabletopEnv):

@@ -8,10 +8,10 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from signimit.languages import Language
-from signimit.people import Person, drawings
+from signimit.benchmark.studies.cells import CROWD, wavering
 from signimit.strokes import StrokeLibrary
-from signimit.study.cells import CROWD, wavering
+from signimit.teaching.languages import Language
+from signimit.teaching.people import Person, drawings
 
 LARGER, FASTER, MORE_SLANTED = 1.8, 1.8, 0.9  # another style: times the size, times the speed, shear added
 WAVER = 0.18  # half sizes, root mean square, where people are noisy

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from signimit.benchmark.commands import Command
 from signimit.benchmark.sessions import BenchmarkSession
 from signimit.benchmark.splits import Split
-from signimit.composition import GroundTruth
 from signimit.demonstrations import Demonstration, DemonstrationSet
-from signimit.languages import Request
-from signimit.scenes import sample_times
+from signimit.teaching.composition import GroundTruth
+from signimit.teaching.languages import Request
+from signimit.teaching.scenes import sample_times
 
 GRID = 5e-5  # m
 Arrays = dict[str, NDArray[Any]]

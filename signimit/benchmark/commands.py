@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.composition import SceneSampler, compose_utterance
-from signimit.decks import StrokeDeck
-from signimit.languages import Language, Request
-from signimit.scenes import sample_hand
+from signimit.teaching.composition import SceneSampler, compose_utterance
+from signimit.teaching.languages import Language, Request
+from signimit.teaching.scenes import sample_hand
+from signimit.teaching.stroke_sampler import StrokeSampler
 
 PER_UNSEEN_PAIR = 3
 AT_MOST = 16  # commands of a session whose language has more pairs
@@ -40,7 +40,7 @@ class Asking(NamedTuple):
     """Who asks, in which language, in which scenes."""
 
     language: Language
-    signs: StrokeDeck
+    signs: StrokeSampler
     scenes: SceneSampler
     rng: np.random.Generator
 

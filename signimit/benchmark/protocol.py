@@ -13,9 +13,9 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.composition import GroundTruth
 from signimit.demonstrations import DemonstrationSet
-from signimit.languages import Request
+from signimit.teaching.composition import GroundTruth
+from signimit.teaching.languages import Request
 
 CONTROL_PERIOD = 0.02  # s; `Entry.act` is called at 50 Hz
 
@@ -39,8 +39,8 @@ class Entry(Protocol):
 
     An entry may also say what it thinks, to have its stages scored; what it does not say is shown as "-":
 
-    * ``understanding``: a `signimit.understanding.Understanding` (groups, focus, word order), read after `observe`;
-    * ``reading``: a `signimit.understanding.Reading` of the last utterance, read after each `begin`. Movements are
+    * ``understanding``: a `signimit.learners.base.Understanding` (groups, focus, word order), read after `observe`;
+    * ``reading``: a `signimit.learners.base.Reading` of the last utterance, read after each `begin`. Movements are
       numbered as in ``understanding.labels``, so that one without the other says nothing of movements.
     """
 

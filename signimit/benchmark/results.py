@@ -13,17 +13,17 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from signimit.atomic import replaced_file
 from signimit.benchmark.engines import Engine
-from signimit.benchmark.frozen import split_hash
 from signimit.benchmark.protocol import Oracle
 from signimit.benchmark.provenance import code_hash, versions
 from signimit.benchmark.registry import EntrantReference, get_entrant
 from signimit.benchmark.running import Task
+from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, estimate_stage
 from signimit.exceptions import FileFormatError
-from signimit.records import Record, append_record, read_records
+from signimit.io.records import Record, append_record, read_records
+from signimit.io.safe_files import replaced_file
 
 FORMAT, VERSION = "signimit benchmark results", 1
 NEEDED = frozenset({"split", "seed", "code", "demonstrations", "obeyed", "misfit", "seconds"})

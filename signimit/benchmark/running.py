@@ -7,17 +7,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-from signimit.benchmark.frozen import get_session, session_hash
 from signimit.benchmark.obeying import obey
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle, Truth
 from signimit.benchmark.provenance import code_hash
 from signimit.benchmark.registry import EntrantReference, get_entrant
 from signimit.benchmark.scoring import Judge, Understood, count_signs_read, score_understanding
 from signimit.benchmark.sessions import BenchmarkSession, Lesson, entry_stream, with_more_demonstrations
+from signimit.benchmark.shipped_sessions import get_session, session_hash
 from signimit.benchmark.splits import get_split
 from signimit.exceptions import InvalidInputError
-from signimit.records import Record
-from signimit.understanding import Understanding
+from signimit.io.records import Record
+from signimit.learners.base import Understanding
 
 
 class Task(NamedTuple):

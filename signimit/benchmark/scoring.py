@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.commands import Command
-from signimit.composition import GroundTruth
 from signimit.evaluation import TOLERANCE, movement_error, performed, prepare_templates, settled_part
-from signimit.languages import Request
-from signimit.understanding import Reading, Understanding
+from signimit.learners.base import Reading, Understanding
+from signimit.teaching.composition import GroundTruth
+from signimit.teaching.languages import Request
 
 WORST = 1.0  # half sizes; a larger misfit, or a hand that rested, counts as this much
 

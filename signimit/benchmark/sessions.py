@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from signimit.benchmark.commands import Asking, Command
 from signimit.benchmark.splits import Split
-from signimit.composition import GroundTruth, compose_demonstrations, compose_prototypes
-from signimit.decks import StrokeDeck
 from signimit.demonstrations import DemonstrationSet
+from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_prototypes
+from signimit.teaching.stroke_sampler import StrokeSampler
 
 RECIPE = 1  # changes when the same seed gives another session
 SAMPLES = 16  # drawings of each label by each person
@@ -44,10 +44,10 @@ class BenchmarkSession:
 def compose_session(split: Split, seed: int) -> BenchmarkSession:
     """Compose a session; the same split and seed give the same one, up to the last digits of other processors."""
     cast = split.casting(split.language, SAMPLES, _stream(seed, _WHO), _stream(seed, _HOW))
-    signs, rng = StrokeDeck(cast.signs), _stream(seed, _SHOWN)
+    signs, rng = StrokeSampler(cast.signs), _stream(seed, _SHOWN)
     demonstrations, truth = compose_demonstrations(split.language, signs, cast.movements, rng, split.shown_scenes)
     prototypes = tuple(p.points for p in compose_prototypes(split.language, signs, rng))
-    asking = signs if cast.asking is cast.signs else StrokeDeck(cast.asking)
+    asking = signs if cast.asking is cast.signs else StrokeSampler(cast.asking)
     commands = split.ask(Asking(split.language, asking, split.asked_scenes, _stream(seed, _ASKED)))
     return BenchmarkSession(
         split=split,

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from signimit.benchmark.casts import Casting, another_style, same_people, strangers, wavering_people
 from signimit.benchmark.commands import Ask, ask_counterfactually, ask_every_pair, ask_unseen_pairs
-from signimit.composition import SceneSampler
+from signimit.benchmark.studies.cells import FILLER_SIGNS, FOCUS_SIGNS, MOVEMENT_SIGNS, SYNTHETIC_MOVEMENTS
 from signimit.exceptions import UnknownNameError
-from signimit.languages import PAPER_LANGUAGE, Language
-from signimit.scenes import sample_scene
-from signimit.study.cells import FILLER_SIGNS, FOCUS_SIGNS, MOVEMENT_SIGNS, SYNTHETIC_MOVEMENTS
+from signimit.teaching.composition import SceneSampler
+from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching.scenes import sample_scene
 
 CROWDED = 0.25  # times the usual distances between objects
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t
 
 from signimit.intervals import wilson_interval
-from signimit.records import Record
+from signimit.io.records import Record
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from signimit.kernels.compilation import FAR, compiled, share_rows
 
 
 def drawing_distances(shapes: NDArray[np.float32], offsets: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Compute the distances of `signimit.traces.trace_distances`.
+    """Compute the distances of `signimit.learners.joint.drawing_distance.compare_drawings`.
 
     Args:
         shapes: N drawings from their own centres, shape (N, S, 5): place in half sizes, then manner; S a multiple of 8.

@@ -11,7 +11,7 @@ _LANES = 16  # signs that are compared with one at once
 
 
 def sign_distances(features: NDArray[np.float32], largest_gap: float) -> NDArray[np.float64]:
-    """Compute the distances of `signimit.learners.vocabulary.sign_distances`.
+    """Compute the distances of `signimit.learners.joint.sign_distance.sign_distances`.
 
     Args:
         features: Place and direction along N signs, shape (N, S, 4).

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from signimit.exceptions import UnknownNameError
-from signimit.learners.joint import JointLearner as JointLearner
+from signimit.learners.base import Learner
+from signimit.learners.joint.learner import JointLearner as JointLearner
 from signimit.learners.paper import PaperLearner as PaperLearner
-from signimit.understanding import Learner
 
 LEARNERS: dict[str, Learner] = {
     "joint": JointLearner(),

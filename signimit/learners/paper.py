@@ -12,9 +12,9 @@ from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
 from signimit.grouping import group_movements
 from signimit.inference import infer_focus, infer_word_order
+from signimit.learners.base import Reading, Understanding
 from signimit.signs import SignSpace
 from signimit.similarity import maximum_similarities, policy_distances
-from signimit.understanding import Reading, Understanding
 from signimit.validation import finite_array
 
 

@@ -19,15 +19,15 @@ from collections.abc import Sequence
 from numpy.typing import ArrayLike
 
 from signimit.exceptions import FileFormatError, UnknownNameError
+from signimit.policies.base import CONTROL_PERIOD as CONTROL_PERIOD
+from signimit.policies.base import Policy as Policy
+from signimit.policies.base import StatefulPolicy as StatefulPolicy
+from signimit.policies.base import check_demonstrations
 from signimit.policies.dmp import DMPPolicy as DMPPolicy
 from signimit.policies.gmr import GMRPolicy as GMRPolicy
 from signimit.policies.ilo_gmr import ILOGMRPolicy as ILOGMRPolicy
 from signimit.policies.knn import KNearestPolicy as KNearestPolicy
 from signimit.policies.path_following import PathFollowingPolicy as PathFollowingPolicy
-from signimit.policies.protocol import CONTROL_PERIOD as CONTROL_PERIOD
-from signimit.policies.protocol import Policy as Policy
-from signimit.policies.protocol import StatefulPolicy as StatefulPolicy
-from signimit.policies.protocol import check_demonstrations
 from signimit.policies.storage import read_policy_arrays
 
 _CLASSES = {cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy, ILOGMRPolicy, GMRPolicy, DMPPolicy)}

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.course import learn_course
+from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
 from signimit.policies.gaussian_mixture import within_speed
-from signimit.policies.protocol import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.reference_path.reference_path import learn_reference_path
+from signimit.policies.reference_path.timing import time_course
 from signimit.policies.storage import StoredPolicy
-from signimit.policies.timing import time_course
 from signimit.strokes import Stroke
 
 BASES = 40
@@ -77,7 +77,7 @@ class DMPPolicy(StoredPolicy):
     @classmethod
     def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
         """Find the shared course and fit the forcing term to it."""
-        course = learn_course(demonstrations)
+        course = learn_reference_path(demonstrations)
         nodes = time_course(course)
         goal = nodes.mean(axis=0) if course.closed else nodes[-1]
         ends = (nodes[-1:], nodes[:1]) if course.closed else (nodes[:1], nodes[-1:])

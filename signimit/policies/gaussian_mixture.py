@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signimit.policies.protocol import Array
+from signimit.policies.base import Array
 
 FLOOR = 1e-3  # of each feature's variance, added to it: no component collapses onto a point
 TRUSTED = 2.0  # standard deviations from a component's centre, see `regress`

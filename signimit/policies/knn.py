@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.protocol import Array, check_hand, demonstrated_velocities
+from signimit.policies.base import Array, check_hand, demonstrated_velocities
 from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.course import learn_course
-from signimit.policies.protocol import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.reference_path.reference_path import learn_reference_path
+from signimit.policies.reference_path.timing import time_course
 from signimit.policies.storage import StoredPolicy
-from signimit.policies.timing import time_course
 from signimit.strokes import Stroke
 
 PULL = 15.0  # 1/s
@@ -78,7 +78,7 @@ class PathFollowingPolicy(StoredPolicy):
     @classmethod
     def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
         """Find the shared course and lay it out in time."""
-        course = learn_course(demonstrations)
+        course = learn_reference_path(demonstrations)
         return cls(time_course(course), float(course.closed), course.scale, course.reach_speed)
 
     def start(self) -> PhaseState:

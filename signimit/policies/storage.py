@@ -9,9 +9,9 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.archive import read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.policies.protocol import frozen
+from signimit.io.archive import read_archive, write_archive
+from signimit.policies.base import frozen
 
 KIND, VERSION = "policy", 1
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from signimit import StrokeLibrary
-from signimit.formats import read_inkml
+from signimit.io.formats import read_inkml
 
 SCRIPT = Path(__file__).parents[2] / "scripts" / "import_strokes.py"
 UNIPEN = """.SEGMENT DIGIT 0 ? "6"

@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from signimit_envs import RenderingError, diagnosis, measurements
+from signimit_envs import RenderingError
+from signimit_envs.cli import doctor as diagnosis
+from signimit_envs.timing import measurements
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 

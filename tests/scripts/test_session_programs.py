@@ -36,7 +36,7 @@ def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
     def no_backend() -> str:
         raise RenderingError("no OpenGL library was found", "Install one.")
 
-    monkeypatch.setattr("signimit_envs.rendering.choose_backend", no_backend)
+    monkeypatch.setattr("signimit_envs.video.rendering.choose_backend", no_backend)
     out = tmp_path / "out"
     said = run("reproduce", "--out", out, "--attempts", 1, "--seconds", 1)
     assert "12 demonstrations show " in said

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from signimit_envs.studio.serving import StudioPlan, running_studio
+from signimit_envs.studio.web.serving import StudioPlan, running_studio
 
 PROGRAM = Path(__file__).parents[2] / "scripts" / "studio.py"
 PIPES = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from signimit_envs.throughput import report
-from signimit_envs.throughput.batches import Agreement, BatchSpeed
-from signimit_envs.throughput.parts import Part
-from signimit_envs.throughput.vector_envs import WayToStep
-from signimit_envs.throughput.work import ThroughputPlan
+from signimit_envs.timing.throughput import report
+from signimit_envs.timing.throughput.batches import Agreement, BatchSpeed
+from signimit_envs.timing.throughput.parts import Part
+from signimit_envs.timing.throughput.vector_envs import WayToStep
+from signimit_envs.timing.throughput.work import ThroughputPlan
 
 pytest.importorskip("tyro")
 PROGRAM = Path(__file__).parents[2] / "scripts" / "throughput.py"

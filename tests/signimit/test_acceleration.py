@@ -9,10 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 from signimit import acceleration, group_movements, learn, policy_distances
-from signimit.learners.vocabulary import sign_distances, sign_features
+from signimit.benchmark.studies.scaling import compose_many
+from signimit.learners.joint.drawing_distance import Drawing, compare_drawings
+from signimit.learners.joint.sign_distance import sign_distances, sign_features
 from signimit.similarity import maximum_similarities
-from signimit.study.scaling import compose_many
-from signimit.traces import Trace, trace_distances
 
 Array = NDArray[np.float64]
 
@@ -28,14 +28,14 @@ def loops(count: int, seed: int) -> tuple[list[Array], Array]:
     return paths, rng.uniform(-0.2, 0.2, (count, 3, 2))
 
 
-def traces(count: int, seed: int, frames: int) -> tuple[list[Trace], Array]:
+def traces(count: int, seed: int, frames: int) -> tuple[list[Drawing], Array]:
     rng = np.random.default_rng(seed)
     places, manner, centres = (
         rng.normal(size=(count, 64, 2)),
         rng.normal(size=(count, 64, 3)),
         rng.normal(size=(count, 2)),
     )
-    made = [Trace(places[t], manner[t], 1.0 + t, centres[t]) for t in range(count)]
+    made = [Drawing(places[t], manner[t], 1.0 + t, centres[t]) for t in range(count)]
     return made, rng.normal(size=(count, frames, 2))
 
 
@@ -64,9 +64,9 @@ def test_compiled_drawing_distances_are_the_plain_ones(
 ) -> None:
     pytest.importorskip("numba")
     drawings, objects = traces(count, 0, frames)
-    plain = trace_distances(drawings, objects)
+    plain = compare_drawings(drawings, objects)
     monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
-    compiled = trace_distances(drawings, objects)
+    compiled = compare_drawings(drawings, objects)
     others = ~np.eye(count, dtype=bool)
     np.testing.assert_allclose(compiled[others], plain[others], rtol=1e-4)
     np.testing.assert_allclose(compiled, plain, atol=2e-3)

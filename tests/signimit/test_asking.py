@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from signimit import Demonstration, DemonstrationSet, InvalidInputError, WordOrder
 from signimit.asking import Query, choose_query
-from signimit.understanding import Understanding
+from signimit.learners.base import Understanding
 
 Array = NDArray[np.float64]
 TURN = np.linspace(0, 6 * np.pi, 120)

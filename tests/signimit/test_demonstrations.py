@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from signimit import Demonstration, DemonstrationSet, FileFormatError, InvalidInputError
-from signimit.archive import write_archive
+from signimit.io.archive import write_archive
 
 SIGN = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
 HAND = np.array([[0.0, 0.0], [0.1, 0.0], [0.1, 0.1], [0.0, 0.1]])

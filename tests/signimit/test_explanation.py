@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from signimit import InvalidInputError, WordOrder
 from signimit.explanation import explain_understanding
-from signimit.understanding import Understanding
+from signimit.learners.base import Understanding
 
 OBJECTS = np.array([[[0.0, 0.0], [0.03, 0.04], [0.5, 0.5]]] * 2)
 

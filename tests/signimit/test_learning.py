@@ -20,12 +20,12 @@ from signimit import (
     WordOrder,
     learn,
 )
-from signimit.archive import read_archive, write_archive
-from signimit.composition import GroundTruth, compose_demonstrations, compose_prototypes, compose_utterance
-from signimit.decks import StrokeDeck
 from signimit.grouping import canonical_labels
-from signimit.languages import PAPER_LANGUAGE, Language
-from signimit.people import SIGN_LABELS, synthetic_library
+from signimit.io.archive import read_archive, write_archive
+from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_prototypes, compose_utterance
+from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching.people import SIGN_LABELS, synthetic_library
+from signimit.teaching.stroke_sampler import StrokeSampler
 
 Array = NDArray[np.float64]
 CORNERS: dict[str, list[list[float]]] = {
@@ -66,7 +66,7 @@ class Session:
 
     def __init__(self, language: Language, seed: int = 2) -> None:
         self.language, self.rng = language, np.random.default_rng(seed)
-        self.deck = StrokeDeck(library(seed))
+        self.deck = StrokeSampler(library(seed))
         self.prototypes = compose_prototypes(language, self.deck, self.rng)
         self.demonstrations, self.truth = compose_demonstrations(language, self.deck, library(seed + 100), self.rng)
 
@@ -124,7 +124,7 @@ def test_every_pair_is_understood_also_those_never_shown(language: Language) -> 
 def test_an_unseen_pair_of_synthetic_people_is_understood() -> None:
     for seed in range(6):
         rng = np.random.default_rng(seed)
-        deck = StrokeDeck(synthetic_library(SIGN_LABELS, samples=12, rng=rng))
+        deck = StrokeSampler(synthetic_library(SIGN_LABELS, samples=12, rng=rng))
         prototypes = compose_prototypes(PAPER_LANGUAGE, deck, rng)
         movements = synthetic_library(PAPER_LANGUAGE.movements, samples=9, rng=rng)
         demonstrations, truth = compose_demonstrations(PAPER_LANGUAGE, deck, movements, rng)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from signimit import FileFormatError, InvalidInputError, Stroke, StrokeLibrary, UnknownNameError
-from signimit.archive import write_archive
+from signimit.io.archive import write_archive
 from signimit.strokes import cut, flatten
 
 LINE = np.array([[0.0, 0.0], [1.0, 2.0], [3.0, 1.0]])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from signimit import WordOrder
+from signimit.learners.base import Understanding
 from signimit.summary import object_name, ordinal, summarise
-from signimit.understanding import Understanding
 
 
 def understanding(labels: list[int], focus: list[int], order: WordOrder) -> Understanding:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import signimit
 from signimit_envs import CONTROL_RATE, ENV_IDS, TabletopEnv, TabletopHandEnv
-from signimit_envs.rendering import choose_backend
+from signimit_envs.video.rendering import choose_backend
 
 CENTRE = {"objects": [[0.0, 0.0], [0.2, 0.1], [-0.2, 0.1]], "hand": [0.1, 0.0]}
 OBSERVED = {"hand", "hand_velocity", "joints", "joint_velocities", "objects", "signs"}

@@ -15,10 +15,10 @@ from gymnasium.envs.registration import EnvSpec
 from gymnasium.utils.env_checker import check_env, data_equivalence
 
 import signimit
-from signimit.languages import Language
-from signimit.people import synthetic_library
+from signimit.teaching.languages import Language
+from signimit.teaching.people import synthetic_library
 from signimit_envs import ENV_IDS, RenderingError, TabletopEnv, TabletopHandEnv, reproduce
-from signimit_envs.rendering import choose_backend
+from signimit_envs.video.rendering import choose_backend
 
 TALK = {
     "focus_signs": ["star", "1", "7", "spiral"],
@@ -212,7 +212,7 @@ def test_what_a_picture_shows() -> None:
 
 
 def test_pictures_without_opengl_are_refused_in_a_sentence_and_states_are_not(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("signimit_envs.rendering._first_working_backend", lambda: "")
+    monkeypatch.setattr("signimit_envs.video.rendering._first_working_backend", lambda: "")
     gym.make(ENV_IDS[0]).reset(seed=0)
     with pytest.raises(RenderingError, match="no OpenGL library was found"):
         gym.make(ENV_IDS[0], obs_type="pixels", disable_env_checker=True).reset(seed=0)

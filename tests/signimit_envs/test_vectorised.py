@@ -8,7 +8,7 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from signimit_envs.throughput.vector_envs import ENV_ID, make_vector_env
+from signimit_envs.timing.throughput.vector_envs import ENV_ID, make_vector_env
 
 
 @pytest.mark.parametrize(("mode", "count"), [("sync", 8), ("async", 2)])

@@ -17,9 +17,9 @@ for _package in ("fastapi", "uvicorn", "websockets"):
     pytest.importorskip(_package, reason="the studio needs signimit[studio]")
 playwright = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright")
 
-from signimit.composition import PAPER_LANGUAGE, compose_loops, compose_path  # noqa: E402
-from signimit.people import Person, synthetic_library  # noqa: E402
-from signimit_envs.studio.serving import StudioPlan, running_studio  # noqa: E402
+from signimit.teaching.composition import PAPER_LANGUAGE, compose_loops, compose_path  # noqa: E402
+from signimit.teaching.people import Person, synthetic_library  # noqa: E402
+from signimit_envs.studio.web.serving import StudioPlan, running_studio  # noqa: E402
 
 Json = dict[str, Any]
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from signimit_envs.studio.serving import StudioPlan, running_studio
+from signimit_envs.studio.web.serving import StudioPlan, running_studio
 
 DEMONSTRATIONS = 3
 TOLD = " The robot is told nothing of this."

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from signimit_envs.studio.loopback import studio_process
-from signimit_envs.studio.serving import StudioPlan, running_studio
+from signimit_envs.studio.web.serving import StudioPlan, running_studio
 
 expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
 Visit = Callable[..., Any]

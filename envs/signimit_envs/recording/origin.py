@@ -14,8 +14,8 @@ from gymnasium.envs.registration import EnvSpec
 
 from signimit import InvalidInputError
 from signimit.exceptions import FileFormatError
-from signimit_envs.scene import SUBSTEPS, scene_assets, scene_xml
-from signimit_envs.tabletop import TabletopEnv
+from signimit_envs.arm.scene import SUBSTEPS, scene_assets, scene_xml
+from signimit_envs.tabletop.env import TabletopEnv
 
 STATE_SPEC = mujoco.mjtState.mjSTATE_INTEGRATION
 """What a recorded state holds: all that decides the next step. FULLPHYSICS lacks where the objects (mocap) are."""

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, UnknownNameError
+from signimit_envs.arm.scene import object_bodies
 from signimit_envs.recording.episodes import RecordedEpisode
 from signimit_envs.recording.origin import STATE_SPEC, RecordingOrigin
-from signimit_envs.rendering import OffscreenView
-from signimit_envs.scene import object_bodies
+from signimit_envs.video.rendering import OffscreenView
 
 
 class Divergence(NamedTuple):

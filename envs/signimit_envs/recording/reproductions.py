@@ -10,13 +10,13 @@ import gymnasium as gym
 import numpy as np
 
 from signimit.exceptions import InvalidInputError
-from signimit.languages import PAPER_LANGUAGE, Language
 from signimit.learning import ImitationModel
+from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.recorder import EpisodeRecorder
-from signimit_envs.reproduction import hand_action, hand_velocities
-from signimit_envs.scene import CONTROL_RATE
-from signimit_envs.session import Command
+from signimit_envs.sessions.reproduction import hand_action, hand_velocities
+from signimit_envs.sessions.session import Command
 
 ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
 

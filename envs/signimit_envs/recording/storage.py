@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.archive import MAX_BYTES, read_archive, write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit.io.archive import MAX_BYTES, read_archive, write_archive
 from signimit.validation import whole_numbers
 from signimit_envs.recording.episodes import Recording, episode_arrays, episode_from_arrays
 from signimit_envs.recording.origin import RecordingOrigin

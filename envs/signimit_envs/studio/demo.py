@@ -7,12 +7,12 @@ import asyncio
 import numpy as np
 
 from signimit.evaluation import performed
-from signimit.languages import PAPER_LANGUAGE, Request
 from signimit.summary import object_name
-from signimit_envs.studio.events import Demonstrated, Judged, Shown
-from signimit_envs.studio.open_session import OpenSession
-from signimit_envs.studio.prompts import next_request, prompt_text
-from signimit_envs.studio.stand_ins import draw_answer, draw_utterance, templates
+from signimit.teaching.languages import PAPER_LANGUAGE, Request
+from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance, templates
+from signimit_envs.studio.page.prompts import next_request, prompt_text
+from signimit_envs.studio.store.events import Demonstrated, Judged, Shown
+from signimit_envs.studio.store.open_session import OpenSession
 from signimit_envs.studio.studio import Studio
 
 LANGUAGE = "paper"

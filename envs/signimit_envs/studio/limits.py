@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from signimit_envs.scene import OBJECT_COUNTS
+from signimit_envs.arm.scene import OBJECT_COUNTS
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,7 +22,7 @@ from signimit.exceptions import InvalidInputError, MissingDependencyError
 Json = dict[str, Any]
 _SERVER = (
     "import sys; from pathlib import Path\n"
-    "from signimit_envs.studio.serving import StudioPlan, serve_studio\n"
+    "from signimit_envs.studio.web.serving import StudioPlan, serve_studio\n"
     "serve_studio(StudioPlan(folder=Path(sys.argv[1])), lambda address: print(address, flush=True))"
 )
 _MOVED = 5e-4  # m; a hand that is so far from where it was has begun to move

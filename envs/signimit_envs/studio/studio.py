@@ -16,20 +16,20 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.languages import Request
-from signimit.scenes import sample_hand, sample_scene
-from signimit_envs.scene import CONTROL_RATE
-from signimit_envs.studio.album import Album
-from signimit_envs.studio.belief import understood_text
-from signimit_envs.studio.camera import Camera
-from signimit_envs.studio.events import Asked, Created, Signs
-from signimit_envs.studio.history import History
+from signimit.teaching.languages import Request
+from signimit.teaching.scenes import sample_hand, sample_scene
+from signimit_envs.arm.scene import CONTROL_RATE
+from signimit_envs.studio.arm.camera import Camera
+from signimit_envs.studio.arm.live_arm import LiveArm
+from signimit_envs.studio.arm.live_state import Errand, TrackPart
+from signimit_envs.studio.arm.viewers import Viewers
 from signimit_envs.studio.limits import LIMITS
-from signimit_envs.studio.live_arm import LiveArm
-from signimit_envs.studio.live_state import Errand, TrackPart
-from signimit_envs.studio.open_session import OpenSession
-from signimit_envs.studio.shelf import Shelf
-from signimit_envs.studio.viewers import Viewers
+from signimit_envs.studio.page.belief import understood_text
+from signimit_envs.studio.page.figure_cache import Album
+from signimit_envs.studio.store.events import Asked, Created, Signs
+from signimit_envs.studio.store.history import History
+from signimit_envs.studio.store.open_session import OpenSession
+from signimit_envs.studio.store.session_store import Shelf
 
 _PATIENCE = 60.0  # s, for OpenGL to be found
 _KEPT_OPEN = 4  # sessions; an older one is read again when somebody comes back to it
@@ -158,7 +158,7 @@ class Studio:
     def _prepare_figures(self) -> None:
         """Import matplotlib before somebody waits for a figure, and after the first page, which waits for OpenGL."""
         self.camera.why_blind(_PATIENCE)
-        importlib.import_module("signimit.figures")
+        importlib.import_module("signimit.plots.paper")
 
     def _record(self, part: TrackPart) -> None:
         """Write a second of an answer to the disk, in a thread that may wait for it."""

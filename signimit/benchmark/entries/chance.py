@@ -9,12 +9,12 @@ from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.entries.imitator import certain_reading
 from signimit.benchmark.protocol import Kit, Observation
 from signimit.demonstrations import DemonstrationSet
-from signimit.frames import on_table
 from signimit.grouping import canonical_labels
 from signimit.inference import WordOrder
+from signimit.learners.base import Reading, Understanding
+from signimit.learners.joint.drawing_distance import make_drawing
 from signimit.policies import make_policy
-from signimit.traces import make_trace
-from signimit.understanding import Reading, Understanding
+from signimit.policies.frames import on_table
 
 
 class Chance:
@@ -51,7 +51,7 @@ class Chance:
         movement, focus = int(self._rng.integers(movements)), int(self._rng.integers(len(objects)))
         self.reading = certain_reading(movement, focus, movements, len(objects))
         shown = self._demonstrations[int(self._rng.choice(np.flatnonzero(labels == movement)))]
-        policy = make_policy([shown.hand - make_trace(shown.hand, shown.times).centre], [shown.times])
+        policy = make_policy([shown.hand - make_drawing(shown.hand, shown.times).centre], [shown.times])
         self._hand = Follower(on_table(policy, objects[focus]))
 
     def act(self, observation: Observation) -> ArrayLike:

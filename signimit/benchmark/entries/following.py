@@ -7,20 +7,20 @@ from typing import Any
 from numpy.typing import NDArray
 
 from signimit.benchmark.protocol import Observation
-from signimit.frames import StatefulTablePolicy, TablePolicy
+from signimit.policies.frames import PlacedPolicy, StatefulPlacedPolicy
 
 
 class Follower:
     """Follows one policy from the moment it is made."""
 
-    def __init__(self, policy: TablePolicy) -> None:
+    def __init__(self, policy: PlacedPolicy) -> None:
         """Begin to follow."""
         self._policy = policy
-        self._state: Any = policy.start() if isinstance(policy, StatefulTablePolicy) else None
+        self._state: Any = policy.start() if isinstance(policy, StatefulPlacedPolicy) else None
 
     def act(self, observation: Observation) -> NDArray[Any]:
         """Return the velocity for the next control period, shape (2,), m/s."""
-        if not isinstance(self._policy, StatefulTablePolicy):
+        if not isinstance(self._policy, StatefulPlacedPolicy):
             return self._policy(observation.hand)
         self._state, velocity = self._policy.step(self._state, observation.hand)
         return velocity

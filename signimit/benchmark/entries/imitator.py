@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.protocol import Entrant, Kit, Observation
 from signimit.demonstrations import DemonstrationSet
+from signimit.learners.base import Reading, Understanding
 from signimit.learning import ImitationModel, learn
 from signimit.policies import DEFAULT_POLICY
-from signimit.understanding import Reading, Understanding
 
 
 class Imitator:

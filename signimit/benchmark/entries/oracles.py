@@ -9,14 +9,14 @@ from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.entries.imitator import Imitator, certain_reading
 from signimit.benchmark.protocol import Kit, Observation, Truth
 from signimit.demonstrations import DemonstrationSet
-from signimit.frames import on_table
 from signimit.grouping import canonical_labels, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
+from signimit.learners.base import Reading, Understanding
 from signimit.learning import ImitationModel
 from signimit.policies import DEFAULT_POLICY
+from signimit.policies.frames import on_table
 from signimit.signs import SignSpace
 from signimit.similarity import policy_distances, policy_similarities
-from signimit.understanding import Reading, Understanding
 
 METHOD = "paper"
 Labels = NDArray[np.int64]

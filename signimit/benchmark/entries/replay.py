@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.protocol import Observation
 from signimit.demonstrations import Demonstration, DemonstrationSet
-from signimit.frames import on_table
+from signimit.learners.joint.drawing_distance import make_drawing
 from signimit.policies import make_policy
+from signimit.policies.frames import on_table
 from signimit.signs import normalised_sign, pairwise_dtw
-from signimit.traces import make_trace
 
 Place = NDArray[np.float64]
 
@@ -55,6 +55,6 @@ class ReplayNearby(Replay):
     """
 
     def _origins(self, shown: Demonstration, objects: NDArray[np.float64]) -> tuple[Place, Place]:
-        centre = make_trace(shown.hand, shown.times).centre
+        centre = make_drawing(shown.hand, shown.times).centre
         nearest = int(np.linalg.norm(shown.objects - centre, axis=1).argmin())
         return shown.objects[nearest], objects[nearest]

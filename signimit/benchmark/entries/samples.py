@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
-from signimit.policies.protocol import demonstrated_velocities
+from signimit.policies.base import demonstrated_velocities
 from signimit.signs import normalised_sign
 from signimit.strokes import Stroke
 

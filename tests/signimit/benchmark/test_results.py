@@ -18,7 +18,7 @@ from signimit.benchmark.results import (
 )
 from signimit.benchmark.running import Task
 from signimit.exceptions import FileFormatError
-from signimit.records import Record
+from signimit.io.records import Record
 
 
 def record_of(task: Task, **changes: object) -> Record:

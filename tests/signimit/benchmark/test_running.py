@@ -13,7 +13,7 @@ from signimit.benchmark.running import Task, run_task
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
-from signimit.understanding import Understanding
+from signimit.learners.base import Understanding
 
 HANDED: list[tuple[Any, ...]] = []
 

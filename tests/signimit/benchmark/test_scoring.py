@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from signimit.benchmark.frozen import get_session
 from signimit.benchmark.scoring import Judge, adjusted_rand_index, count_signs_read, score_understanding
+from signimit.benchmark.shipped_sessions import get_session
 from signimit.benchmark.splits import SPLITS
 from signimit.inference import WordOrder
-from signimit.languages import Request
-from signimit.understanding import Reading, Understanding
+from signimit.learners.base import Reading, Understanding
+from signimit.teaching.languages import Request
 
 SESSION = get_session(SPLITS["paper"], 0)
 TRUTH = SESSION.truth

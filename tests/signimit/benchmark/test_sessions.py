@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 from signimit.benchmark.casts import another_style, same_people, strangers
 from signimit.benchmark.sessions import BenchmarkSession, compose_session, entry_stream, with_more_demonstrations
 from signimit.benchmark.splits import SPLITS, choose_splits
+from signimit.benchmark.studies.cells import CROWD
 from signimit.exceptions import UnknownNameError
-from signimit.languages import PAPER_LANGUAGE
-from signimit.study.cells import CROWD
+from signimit.teaching.languages import PAPER_LANGUAGE
 
 
 @pytest.fixture(scope="module")

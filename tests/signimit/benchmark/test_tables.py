@@ -67,7 +67,7 @@ def test_the_page_explains_every_split_and_entry() -> None:
 
 def test_the_figure_has_a_panel_for_each_split(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib", reason="figures need matplotlib")
-    from signimit.benchmark.figures import draw_results
+    from signimit.plots.benchmark import draw_results
 
     figure = draw_results(SUMMARIES)
     assert [panel.get_title(loc="left") for panel in figure.axes] == ["paper", "unseen-pair"]

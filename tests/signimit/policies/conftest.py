@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit.composition import Language, compose_loops, compose_path
-from signimit.people import synthetic_library
+from signimit.teaching.composition import Language, compose_loops, compose_path
+from signimit.teaching.people import synthetic_library
 
 Array = NDArray[np.float64]
 TABLE = np.array([0.42, 0.38])  # m, half width and depth

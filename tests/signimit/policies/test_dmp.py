@@ -10,8 +10,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
+from signimit.policies.base import CONTROL_PERIOD, check_demonstrations
 from signimit.policies.dmp import BASES, DMPPolicy
-from signimit.policies.protocol import CONTROL_PERIOD, check_demonstrations
 
 
 def drive(policy: DMPPolicy, hands: NDArray[np.float64], steps: int) -> NDArray[np.float64]:

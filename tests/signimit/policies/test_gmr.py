@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from signimit.policies.base import check_demonstrations
 from signimit.policies.gmr import GMRPolicy, position_velocity
-from signimit.policies.protocol import check_demonstrations
 
 TIMES = 0.02 * np.arange(100)
 LINE = np.column_stack([0.4 * TIMES, np.zeros(100)])

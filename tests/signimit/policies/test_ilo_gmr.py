@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from signimit.policies.base import check_demonstrations
 from signimit.policies.gaussian_mixture import fit_mixture, regress, within_speed
 from signimit.policies.ilo_gmr import STEPS, ILOGMRPolicy
-from signimit.policies.protocol import check_demonstrations
 
 
 def test_it_is_the_regression_of_a_mixture_fitted_to_the_nearest_points(shown: Callable[..., Any]) -> None:

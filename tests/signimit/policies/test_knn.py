@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from signimit.policies.base import check_demonstrations
 from signimit.policies.knn import KNearestPolicy
-from signimit.policies.protocol import check_demonstrations
 
 STEP = 0.02
 

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
 from signimit.exceptions import InvalidInputError
-from signimit.people import GOAL_LABELS, MOVEMENT_LABELS
+from signimit.policies.base import CONTROL_PERIOD, check_demonstrations
 from signimit.policies.path_following import PathFollowingPolicy, PhaseState
-from signimit.policies.protocol import CONTROL_PERIOD, check_demonstrations
+from signimit.teaching.people import GOAL_LABELS, MOVEMENT_LABELS
 
 Array = NDArray[np.float64]
 Compose = Callable[..., Any]

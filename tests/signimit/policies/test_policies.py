@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit.archive import write_archive
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.io.archive import write_archive
 from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, StatefulPolicy, load_policy, make_policy
 
 Shown = Any

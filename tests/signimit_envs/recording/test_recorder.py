@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import signimit as si
+from signimit.teaching.languages import Request
 from signimit_envs import ENV_IDS, RenderingError, TabletopHandEnv, reproduce
 from signimit_envs.recording import (
     STATE_SPEC,
@@ -24,7 +25,7 @@ from signimit_envs.recording import (
     save_recording,
 )
 from signimit_envs.recording.episodes import episode_arrays, episode_from_arrays
-from signimit_envs.session import Command, Scene
+from signimit_envs.sessions.session import Command, Scene
 
 Same = Callable[[Recording, Recording], None]
 
@@ -170,8 +171,8 @@ def test_a_reproduction_is_recorded_as_it_happens_without_a_recorder() -> None:
         for focus, movement in [(0, 0), (0, 1), (1, 0), (1, 1)] * 2
     ]
     model = si.learn(si.DemonstrationSet(demonstrations), rng=0)
-    command = Command(si.languages.Request(0, 1), (strokes[1], strokes[2]), Scene(objects, np.array([0.1, -0.1])), True)
-    recording = record_reproductions(model, [command], 2.0, si.languages.Language(focus_signs=("1", "2")))
+    command = Command(Request(0, 1), (strokes[1], strokes[2]), Scene(objects, np.array([0.1, -0.1])), True)
+    recording = record_reproductions(model, [command], 2.0, si.Language(focus_signs=("1", "2")))
     (episode,) = recording
     assert len(episode) == 100
     assert episode.truncations[-1]

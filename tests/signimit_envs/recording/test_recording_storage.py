@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import signimit as si
-from signimit.archive import write_archive
+from signimit.io.archive import write_archive
 from signimit_envs.recording import Recording, load_recording, save_recording
 
 Same = Callable[[Recording, Recording], None]

@@ -15,8 +15,8 @@ pytest.importorskip("websockets", reason="the studio needs signimit[studio]")
 httpx = pytest.importorskip("httpx", reason="the studio's tests need httpx")
 
 from signimit.strokes import Stroke  # noqa: E402
-from signimit_envs.studio.events import Shown  # noqa: E402
-from signimit_envs.studio.serving import StudioPlan, running_studio  # noqa: E402
+from signimit_envs.studio.store.events import Shown  # noqa: E402
+from signimit_envs.studio.web.serving import StudioPlan, running_studio  # noqa: E402
 
 Json = dict[str, Any]
 
@@ -69,7 +69,7 @@ class Page:
 
 @pytest.fixture
 def page(address: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[Page]:
-    monkeypatch.setattr("signimit_envs.studio.guard.Bucket.take", lambda self: True)
+    monkeypatch.setattr("signimit_envs.studio.web.guard.Bucket.take", lambda self: True)
     somebody = Page(address)
     yield somebody
     somebody.browser.close()
@@ -77,7 +77,7 @@ def page(address: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[Page]:
 
 def _taught(address: str, seed: int, count: int) -> str:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("signimit_envs.studio.guard.Bucket.take", lambda self: True)
+        patch.setattr("signimit_envs.studio.web.guard.Bucket.take", lambda self: True)
         somebody = Page(address)
         session = somebody.teach(somebody.post("sessions", {"seed": seed, "title": "taught"}), count)
         somebody.browser.close()

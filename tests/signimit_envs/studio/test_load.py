@@ -11,7 +11,7 @@ from signimit_envs.studio.load import measure_speed, resident_memory
 
 
 def test_every_wait_and_every_frame_is_counted(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("signimit_envs.studio.guard.Bucket.take", lambda self: True)
+    monkeypatch.setattr("signimit_envs.studio.web.guard.Bucket.take", lambda self: True)
     monkeypatch.setattr("signimit_envs.studio.load._SETTLE", 0.0)
     speed = measure_speed(address, sessions=1, answers=1, seconds=0.2)
     assert (len(speed.update), len(speed.motion)) == (12, 1)

@@ -14,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signimit import InvalidInputError
-from signimit_envs.studio.live_state import LiveState
-from signimit_envs.studio.messages import Drag, Shove, Watch, read_socket_message
-from signimit_envs.studio.viewers import Viewer, Viewers
+from signimit_envs.studio.arm.live_state import LiveState
+from signimit_envs.studio.arm.viewers import Viewer, Viewers
+from signimit_envs.studio.web.messages import Drag, Shove, Watch, read_socket_message
 
 client = pytest.importorskip("websockets.sync.client", reason="the studio needs signimit[studio]")
 exceptions = pytest.importorskip("websockets.exceptions")
@@ -130,7 +130,7 @@ def test_what_is_no_message_closes_the_socket_with_a_code(message: Any, code: in
 
 def test_too_many_messages_close_the_socket(page: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     with _connect(page) as socket:
-        monkeypatch.setattr("signimit_envs.studio.guard.Bucket.take", lambda self: False)
+        monkeypatch.setattr("signimit_envs.studio.web.guard.Bucket.take", lambda self: False)
         _say(socket, type="shove", velocity=[0, 0])
         assert _closing_code(socket) == TOO_MANY
 
@@ -252,7 +252,7 @@ def test_a_waiting_page_wakes_for_a_frame_from_another_thread() -> None:
 
 
 def test_states_are_told_in_numbers_that_json_can_say() -> None:
-    from signimit_envs.studio.camera import frame_header
+    from signimit_envs.studio.arm.camera import frame_header
 
     state = LiveState(None, None, 0.1, 0.1, np.zeros(3), np.ones(2) / 3, np.zeros((3, 2)), ((0.1, 0.2),), False, 0.0)
     header = json.loads(json.dumps(frame_header(state), allow_nan=False))

@@ -12,9 +12,9 @@ import numpy as np
 
 from signimit.demonstrations import KIND, VERSION, Demonstration, DemonstrationSet
 from signimit.signs import SAMPLES, normalised_sign
+from signimit_envs.arm.scene import OBJECT_COUNTS
 from signimit_envs.recording.formats.minari_store import create_dataset, import_minari, minari_errors, open_dataset
-from signimit_envs.scene import OBJECT_COUNTS
-from signimit_envs.situations import WORDS
+from signimit_envs.tabletop.reset_options import WORDS
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 _ENV_ID = "signimit/TabletopHand-v0"

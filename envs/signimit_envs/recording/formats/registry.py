@@ -10,7 +10,7 @@ from typing import NamedTuple
 from signimit import demonstrations as demonstration_files
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
-from signimit.formats.csv_demonstrations import HANDS, read_csv_demonstrations, write_csv_demonstrations
+from signimit.io.formats.csv_demonstrations import HANDS, read_csv_demonstrations, write_csv_demonstrations
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.formats.csv_recordings import STEPS, read_csv_recording, write_csv_recording
 from signimit_envs.recording.formats.lerobot.demonstrations import (

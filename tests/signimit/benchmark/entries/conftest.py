@@ -5,10 +5,10 @@ from collections.abc import Callable
 import pytest
 
 from signimit.benchmark.entries import ENTRANTS
-from signimit.benchmark.frozen import get_session
 from signimit.benchmark.protocol import Entry
 from signimit.benchmark.running import make_entry
 from signimit.benchmark.sessions import BenchmarkSession, Lesson
+from signimit.benchmark.shipped_sessions import get_session
 from signimit.benchmark.splits import get_split
 from signimit.exceptions import MissingDependencyError
 

@@ -12,9 +12,9 @@ from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle
 from signimit.benchmark.registry import EntrantReference
 from signimit.benchmark.running import Task, make_entry, run_task
 from signimit.benchmark.sessions import BenchmarkSession, Lesson
-from signimit.composition import GroundTruth
 from signimit.demonstrations import DemonstrationSet
-from signimit.languages import Language, Request
+from signimit.teaching.composition import GroundTruth
+from signimit.teaching.languages import Language, Request
 
 FAST = [name for name in ENTRANTS if name != "clone-mlp" and not name.startswith("deep")]
 

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from signimit.benchmark.frozen import get_session
 from signimit.benchmark.registry import refer_to
 from signimit.benchmark.running import Task, run_task
 from signimit.benchmark.scoring import adjusted_rand_index
 from signimit.benchmark.sessions import BenchmarkSession
+from signimit.benchmark.shipped_sessions import get_session
 from signimit.benchmark.splits import get_split
 from signimit.grouping import canonical_labels
 

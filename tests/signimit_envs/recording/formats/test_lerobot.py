@@ -257,7 +257,7 @@ def test_without_opengl_there_are_no_videos_and_all_else_is_there(
         raise RenderingError("no OpenGL library was found", "Install one.")
 
     monkeypatch.setattr("signimit_envs.recording.formats.lerobot.recordings.choose_backend", no_backend)
-    monkeypatch.setattr("signimit_envs.rendering.choose_backend", no_backend)
+    monkeypatch.setattr("signimit_envs.video.rendering.choose_backend", no_backend)
     write_lerobot_recording(tmp_path / "set", recording)
     assert info_of(tmp_path / "set")["video_path"] is None
     assert_same(read_lerobot_recording(tmp_path / "set"), recording)

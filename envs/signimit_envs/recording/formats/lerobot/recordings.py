@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.formats.whole_folder import whole_folder
+from signimit.io.whole_folder import whole_folder
+from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
 from signimit_envs.recording.formats.columns import Field, fields_from_meta, fields_of, fields_to_meta, has_last_row
@@ -34,8 +35,7 @@ from signimit_envs.recording.formats.lerobot.writing import write_layout
 from signimit_envs.recording.formats.origin_files import read_origin, write_origin
 from signimit_envs.recording.replay import film_states
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
-from signimit_envs.rendering import choose_backend
-from signimit_envs.scene import CONTROL_RATE
+from signimit_envs.video.rendering import choose_backend
 
 ROBOT = "signimit_planar_arm"
 TASK = "Do what the two signs ask for."  # nobody says what that is

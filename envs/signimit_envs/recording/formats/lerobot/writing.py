@@ -23,7 +23,7 @@ from signimit_envs.recording.formats.lerobot.layout import (
 )
 from signimit_envs.recording.formats.lerobot.metadata import Columns, write_metadata
 from signimit_envs.recording.formats.lerobot.statistics import PixelCounter
-from signimit_envs.video import write_video
+from signimit_envs.video.mp4 import write_video
 
 
 def write_layout(folder: Path, layout: Layout) -> None:

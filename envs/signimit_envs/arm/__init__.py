@@ -1,0 +1,1 @@
+"""The simulated arm: scene, constants, and differential inverse kinematics."""

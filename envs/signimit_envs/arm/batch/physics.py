@@ -1,0 +1,76 @@
+"""The simulated arms of many reproductions, on all threads."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+import mujoco
+import numpy as np
+from mujoco.batch import Batch
+from numpy.typing import NDArray
+
+import signimit_assets
+from signimit_envs.arm.batch.planar_arm import PlanarArm
+from signimit_envs.arm.scene import CONTROL_RATE, SUBSTEPS
+
+Array = NDArray[np.float64]
+
+
+def compile_arm() -> mujoco.MjModel:
+    """Compile the scene's arm without table, objects, cameras and shapes: the same motion in less time.
+
+    Nothing collides, objects stay where they are put and the arm's inertia is given, so what is left out moves nothing:
+    the joints agree to rounding.
+    """
+    with resources.as_file(resources.files(signimit_assets)) as folder:
+        spec = mujoco.MjSpec.from_file(str(folder / "tabletop.xml"))
+        for body in list(spec.worldbody.bodies):
+            if body.name != "base":
+                spec.delete(body)
+        for shown in (*spec.geoms, *spec.cameras, *spec.lights, *spec.meshes, *spec.materials, *spec.textures):
+            spec.delete(shown)
+        return spec.compile()
+
+
+class ManyArms:
+    """B arms that track joint velocities, as that of `signimit_envs.TabletopEnv` does.
+
+    Arrays have their components first and the B arms last.
+    """
+
+    def __init__(self, model: mujoco.MjModel, joints: Array, threads: int = 0) -> None:
+        """Put resting arms in their postures.
+
+        Args:
+            model: The arm, or the scene with it.
+            joints: Joint angles, shape (n, B), rad.
+            threads: How many threads compute the physics, 0 for all processors.
+        """
+        self._arm = PlanarArm.from_model(model)
+        self._batch = Batch(model, joints.shape[1], threads)
+        self._qpos, self._qvel, self._ctrl = (self._batch.bind(name).T for name in ("qpos", "qvel", "ctrl"))
+        self._qpos[:] = joints
+        self._batch.forward()
+
+    @property
+    def joints(self) -> Array:
+        """Joint angles, shape (n, B), rad; a copy."""
+        joints: Array = self._qpos.copy()
+        return joints
+
+    def simulate(self, velocities: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Track joint velocities, shape (n, B), rad/s, for one control step, stopping at the joints' limits.
+
+        Returns:
+            Joint angles, shape (n, B), rad, and for which arms the physics is sound, shape (B,): others rest where they
+            were before it failed.
+        """
+        before = self._qpos.copy()
+        room = (self._arm.lower - before) * CONTROL_RATE, (self._arm.upper - before) * CONTROL_RATE
+        np.clip(velocities, *room, out=self._ctrl)
+        # Fewer, longer steps would be faster, and all but the same until a drive's torque limit binds: then it hunts.
+        self._batch.step(nstep=SUBSTEPS)
+        sound: NDArray[np.bool_] = ~self._batch.warning[..., 1].any(axis=1)
+        if not sound.all():
+            self._qpos[:, ~sound], self._qvel[:, ~sound] = before[:, ~sound], 0.0
+        return self.joints, sound

@@ -1,0 +1,110 @@
+"""Learned policies on many simulated arms at once, one control step of all of them at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit import InvalidInputError
+from signimit.validation import finite_array, item_list
+from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
+from signimit_envs.arm.batch.physics import ManyArms, compile_arm
+from signimit_envs.arm.batch.policy_batch import Policy, PolicyBatch
+from signimit_envs.arm.physics_log import QuietLog
+from signimit_envs.arm.scene import CONTROL_RATE, WORKSPACE
+from signimit_envs.sessions.reproduction import hand_action
+from signimit_envs.tabletop.actions import MAX_HAND_SPEED
+
+Array = NDArray[np.float64]
+
+LONGEST = 3600.0  # s
+
+
+class HandTracks(NamedTuple):
+    """How B hands moved.
+
+    Attributes:
+        paths: Where they were at the start and after every control step, shape (B, T + 1, 2), m, table frame.
+        commanded: Where each control step was to take them from where they were, shape (B, T, 2), m.
+        joints: Joint angles at the times of the paths, shape (B, T + 1, 3), rad.
+        steps: How many control steps each of them did, shape (B,): T, or less where the physics failed; from then on
+            the hand rests.
+    """
+
+    paths: Array
+    commanded: Array
+    joints: Array
+    steps: NDArray[np.int64]
+
+
+def reproduce_many(policies: Sequence[Policy], hands: ArrayLike, seconds: float, threads: int = 0) -> HandTracks:
+    """Let policies move many simulated hands, each on a table of its own.
+
+    The paths are those of `signimit_envs.reproduce`, which asks mink for one arm at a time, to within 0.5 mm; only a
+    policy that magnifies the last digit, as gmr and ilo-gmr do, may part them, and parts hands that start 1e-12 m
+    beside each other as far. A reproduction among thousands is what it is alone, and the same call gives the same bits.
+    Where the objects are, the policies know.
+
+    Args:
+        policies: One a reproduction, hands (G, 2), m, table frame, to velocities (G, 2), m/s. What `signimit` learns is
+            such, with and without a state. One that several reproductions share is called for all of them at once.
+        hands: Where to put the hands, shape (B, 2), m.
+        seconds: How long to go on.
+        threads: How many threads compute the physics, 0 for all processors; the result does not depend on it.
+
+    Raises:
+        InvalidInputError: If there are not as many hands as policies, a hand is out of reach, or a policy commands
+            what is not finite or not one velocity a hand.
+    """
+    movers = item_list(policies, "policies")
+    starts, steps = _checked_hands(hands, len(movers)), _checked_steps(seconds)
+    if threads < 0:
+        raise InvalidInputError("threads", "0 or more", f"{threads}")
+    model, flock = compile_arm(), PolicyBatch(movers)
+    controller = ManyHandsController(model)
+    arms = ManyArms(model, controller.postures_at(starts.T)[0], threads)
+    with QuietLog():
+        return _run(flock, controller, arms, steps)
+
+
+def _run(flock: PolicyBatch, controller: ManyHandsController, arms: ManyArms, steps: int) -> HandTracks:
+    joints = arms.joints
+    tracks = _empty_tracks(joints.shape[1], steps)
+    for step in range(steps + 1):
+        here = np.ascontiguousarray(controller.arm.hands(joints).T)
+        tracks.paths[:, step], tracks.joints[:, step] = here, joints.T
+        if step == steps:
+            break
+        ahead = hand_action(flock.velocities(here)) * (MAX_HAND_SPEED / CONTROL_RATE)
+        tracks.commanded[:, step] = here + ahead
+        joints, sound = arms.simulate(controller.solve(joints, ahead.T, 1.0 / CONTROL_RATE).velocities)
+        tracks.steps[sound] += 1
+    return tracks
+
+
+def _empty_tracks(count: int, steps: int) -> HandTracks:
+    return HandTracks(
+        paths=np.empty((count, steps + 1, 2)),
+        commanded=np.empty((count, steps, 2)),
+        joints=np.empty((count, steps + 1, 3)),
+        steps=np.zeros(count, dtype=np.int64),
+    )
+
+
+def _checked_hands(value: ArrayLike, count: int) -> Array:
+    hands = finite_array(value, "hands", (count, 2))
+    outside = np.flatnonzero((np.abs(hands) > WORKSPACE + 1e-9).any(axis=1))
+    if len(outside):
+        x, y = hands[outside[0]]
+        area = f"positions with |x| <= {WORKSPACE[0]:g} m and |y| <= {WORKSPACE[1]:g} m"
+        raise InvalidInputError(f"hands: reproduction {outside[0]}", area, f"({x:g}, {y:g})")
+    return hands
+
+
+def _checked_steps(seconds: float) -> int:
+    if not 0.0 <= seconds <= LONGEST:  # a comparison with NaN is false
+        raise InvalidInputError("seconds", f"0 to {LONGEST:g}", f"{seconds}")
+    return round(seconds * CONTROL_RATE)

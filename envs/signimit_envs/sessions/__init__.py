@@ -1,0 +1,1 @@
+"""Sessions as in the paper's section III, on the physics."""

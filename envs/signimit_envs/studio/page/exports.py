@@ -1,0 +1,226 @@
+"""Sessions as files of other kinds, and back.
+
+A stroke file holds each demonstration as W signs, then the objects' places as a "stroke" with the label `PLACES`, then
+the hand's path. So whoever wants strokes has them under their labels, and nothing is lost.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import itertools
+import tempfile
+import zipfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+
+from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit.io.formats.inkml import read_inkml
+from signimit.io.formats.inkml_writer import write_inkml
+from signimit.io.formats.recording import SAMPLE_TIME
+from signimit.io.safe_files import replaced_file
+from signimit.strokes import Stroke, StrokeLibrary
+from signimit.teaching.languages import Language
+from signimit_envs.arm.scene import OBJECT_COUNTS
+from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.page.prompts import sign_labels
+from signimit_envs.studio.store.events import Shown
+
+WORDS = 2
+PLACES = "objects"
+_COLUMNS = ("stroke", "label", "writer", "x", "y", "t")
+Demonstrations = Sequence[Shown]
+
+
+class Format(NamedTuple):
+    """A kind of file.
+
+    Attributes:
+        media_type: What a browser is told.
+        write: Writes demonstrations in a language, if in one, to a path.
+        read: Reads them from a path.
+    """
+
+    media_type: str
+    write: Callable[[Demonstrations, Language | None, Path], None]
+    read: Callable[[Path], list[Shown]]
+
+
+def export_bytes(name: str, shown: Demonstrations, language: Language | None) -> bytes:
+    """Return demonstrations as the bytes of a file.
+
+    Raises:
+        InvalidInputError: If there are none.
+    """
+    if not shown:
+        raise InvalidInputError("session", "at least one demonstration", "none")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        FORMATS[name].write(shown, language, path)
+        return path.read_bytes()
+
+
+def import_bytes(name: str, content: bytes) -> tuple[Shown, ...]:
+    """Return the demonstrations in the bytes of a file.
+
+    Raises:
+        FileFormatError: If it is no such file.
+        InvalidInputError: If there is more in it than the studio takes.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        path.write_bytes(content)
+        _refuse_bombs(path)
+        try:
+            shown = FORMATS[name].read(path)
+        except FileFormatError as error:  # the page knows the file by another name than ours
+            raise FileFormatError(error.where.replace(str(path), "the file"), error.expected, error.found) from None
+    _check_sizes(shown)
+    return tuple(shown)
+
+
+def to_library(shown: Demonstrations, language: Language | None) -> StrokeLibrary:
+    """Put demonstrations into a stroke library, objects and all."""
+    strokes, labels = [], []
+    for one in shown:
+        places = Stroke(one.objects, np.arange(len(one.objects), dtype=np.float64))
+        strokes += [*one.signs, places, one.hand]
+        labels += _labels(one, language)
+    writers = [one.by for one in shown for _ in range(WORDS + 2)]
+    return StrokeLibrary(tuple(strokes), tuple(labels), tuple(writers), "signimit studio")
+
+
+def from_library(library: StrokeLibrary) -> list[Shown]:
+    """Take demonstrations out of a stroke library that `to_library` made.
+
+    Raises:
+        FileFormatError: If it was made otherwise.
+    """
+    size = WORDS + 2
+    count, rest = divmod(len(library), size)
+    if not count or rest or any(label != PLACES for label in library.labels[WORDS::size]):
+        expected = f"{WORDS} signs, the objects' places as a stroke {PLACES!r}, and a hand, again and again"
+        raise FileFormatError("strokes", expected, f"{len(library)} strokes in another order")
+    found = []
+    for first in range(0, len(library), size):
+        *signs, places, hand = library.strokes[first : first + size]
+        found.append(Shown(tuple(signs), places.points, hand, None, library.writers[first]))
+    return found
+
+
+def _labels(one: Shown, language: Language | None) -> list[str]:
+    if language is None or one.prompt is None:
+        return [*(f"sign {word + 1}" for word in range(WORDS)), PLACES, "movement"]
+    return [*sign_labels(language, one.prompt), PLACES, language.movements[one.prompt.movement]]
+
+
+def _write_set(shown: Demonstrations, language: Language | None, path: Path) -> None:
+    DemonstrationSet(one.demonstration for one in shown).save(path)
+
+
+def _read_set(path: Path) -> list[Shown]:
+    """Read a set; signs have no times in it, and are taken to be sampled every 10 ms."""
+    return [
+        Shown(
+            tuple(Stroke(sign, SAMPLE_TIME * np.arange(len(sign), dtype=np.float64)) for sign in one.signs),
+            one.objects,
+            Stroke(one.hand, one.times - one.times[0]),
+            None,
+            "imported",
+        )
+        for one in DemonstrationSet.load(path)
+    ]
+
+
+def _write_csv(shown: Demonstrations, language: Language | None, path: Path) -> None:
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(_COLUMNS)
+    library = to_library(shown, language)
+    for number, (stroke, label, by) in enumerate(zip(library, library.labels, library.writers, strict=True)):
+        points, times = stroke.points.tolist(), stroke.times.tolist()
+        writer.writerows(
+            (number, label, by, repr(x), repr(y), repr(t)) for (x, y), t in zip(points, times, strict=True)
+        )
+    with replaced_file(path) as file:
+        file.write(text.getvalue().encode())
+
+
+def _read_csv(path: Path) -> list[Shown]:
+    try:
+        rows = csv.reader(io.StringIO(path.read_bytes().decode("utf-8-sig")), strict=True)
+        header = tuple(next(rows, ()))
+        if header != _COLUMNS:
+            raise FileFormatError(f"{path}: line 1", ",".join(_COLUMNS), ",".join(header)[:60])
+        return from_library(_library_from_rows(rows, str(path)))
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise FileFormatError(str(path), "comma-separated text", str(error)[:60]) from None
+
+
+def _library_from_rows(rows: Iterator[list[str]], where: str) -> StrokeLibrary:
+    strokes, labels, writers = [], [], []
+    for number, group in itertools.groupby((row for row in rows if row), key=lambda row: row[0]):
+        table = list(group)
+        try:
+            numbers = np.array([[float(value) for value in row[3:]] for row in table])
+            strokes.append(Stroke(numbers[:, :2], numbers[:, 2]))
+            labels.append(table[0][1])
+            writers.append(table[0][2])
+        except (ValueError, IndexError) as error:
+            expected = "points that move, times that increase, six columns"
+            raise FileFormatError(f"{where}: stroke {number[:20]}", expected, str(error)[:80]) from None
+    return StrokeLibrary(tuple(strokes), tuple(labels), tuple(writers))
+
+
+def _refuse_bombs(path: Path) -> None:
+    if path.suffix != ".npz" or not zipfile.is_zipfile(path):
+        return
+    try:
+        with zipfile.ZipFile(path) as archive:
+            size = sum(info.file_size for info in archive.infolist())
+    except zipfile.BadZipFile:
+        raise FileFormatError(str(path), "a whole archive", "a broken one") from None
+    if size > LIMITS.unpacked:
+        raise InvalidInputError("the file", f"at most {LIMITS.unpacked} bytes unpacked", f"{size}")
+
+
+def _check_sizes(shown: Demonstrations) -> None:
+    """Refuse what could not have been drawn here."""
+    if len(shown) > LIMITS.demonstrations:
+        raise InvalidInputError("the file", f"at most {LIMITS.demonstrations} demonstrations", f"{len(shown)}")
+    for number, one in enumerate(shown):
+        where = f"demonstration {number}"
+        if len(one.objects) not in OBJECT_COUNTS or len(one.signs) != WORDS:
+            expected = f"{WORDS} signs and {OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]} objects"
+            raise InvalidInputError(where, expected, f"{len(one.signs)} and {len(one.objects)}")
+        strokes = (*one.signs, one.hand)
+        if max(len(stroke) for stroke in strokes) > LIMITS.points:
+            raise InvalidInputError(where, f"at most {LIMITS.points} points in a stroke", "more")
+        if max(np.abs(stroke.points).max() for stroke in strokes) > LIMITS.coordinate:
+            raise InvalidInputError(where, f"coordinates up to {LIMITS.coordinate:g}", "larger ones")
+        if max(np.abs(one.objects).max(), np.abs(one.hand.points).max()) > LIMITS.reach:
+            raise InvalidInputError(where, f"objects and hand within {LIMITS.reach} m of the table's middle", "others")
+
+
+FORMATS: Mapping[str, Format] = MappingProxyType(
+    {
+        "demonstrations.npz": Format("application/octet-stream", _write_set, _read_set),
+        "strokes.npz": Format(
+            "application/octet-stream",
+            lambda shown, language, path: to_library(shown, language).save(path),
+            lambda path: from_library(StrokeLibrary.load(path)),
+        ),
+        "strokes.inkml": Format(
+            "application/inkml+xml",
+            lambda shown, language, path: write_inkml(path, to_library(shown, language)),
+            lambda path: from_library(read_inkml(path)),
+        ),
+        "strokes.csv": Format("text/csv", _write_csv, _read_csv),
+    }
+)
+"""What a session can be exported to and imported from, by the name of the file."""

@@ -1,0 +1,141 @@
+"""A session as the page sees it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from signimit.summary import object_name
+from signimit.teaching.languages import Language, Request
+from signimit_envs.studio.arm.live_state import LiveState
+from signimit_envs.studio.page.belief import sign_json, understood_text
+from signimit_envs.studio.page.built_in_people import examples
+from signimit_envs.studio.page.prompts import get_language, next_request, prompt_text, sign_labels
+from signimit_envs.studio.store.events import Shown, stroke_to_json
+from signimit_envs.studio.store.history import Draft, Given
+from signimit_envs.studio.store.open_session import OpenSession
+
+
+def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
+    """Return all of a session but the strokes of its demonstrations and answers."""
+    history, understood = session.history, session.understood
+    created, language = history.created, get_language(history.created.language)
+    return {
+        "id": session.name,
+        "title": history.title,
+        "created": created.created,
+        "revision": history.revision,
+        "events": history.events,
+        "language": None if language is None else _language_json(created.language, language),
+        "objects": created.objects,
+        "demonstrations": [_listed_json(session, number, shown) for number, shown in enumerate(history.shown)],
+        "answers": [answer_json(session, number, given, state) for number, given in enumerate(history.answers)],
+        "draft": _draft_json(history.draft),
+        "can_undo": bool(history.past),
+        "can_redo": bool(history.future),
+        "next": {
+            "scene": {"objects": understood.objects.tolist(), "hand": understood.hand.tolist()},
+            **_next_json(session, language),
+        },
+        "belief": understood.belief,
+    }
+
+
+def answer_json(session: OpenSession, number: int, given: Given, state: LiveState) -> dict[str, Any]:
+    """Return what the arm was asked and understood."""
+    asked, errand = given.asked, state.errand
+    return {
+        "number": number,
+        "movement": asked.movement,
+        "focus": asked.focus,
+        "confidence": round(asked.confidence, 4),
+        "text": understood_text(asked.movement, asked.focus, asked.confidence),
+        "verdict": given.good,
+        "request": _request_json(asked.request),
+        "running": errand is not None and (errand.session, errand.answer) == (session.name, number),
+    }
+
+
+def demonstration_json(session: OpenSession, number: int) -> dict[str, Any]:
+    """Return a demonstration, strokes and all, for replay."""
+    shown = session.history.shown[number]
+    return {
+        **_listed_json(session, number, shown),
+        "signs": [stroke_to_json(sign) for sign in shown.signs],
+        "objects": shown.objects.tolist(),
+        "hand": stroke_to_json(shown.hand),
+    }
+
+
+def prompt_json(session: OpenSession, request: Request) -> dict[str, Any]:
+    """Return what a person is asked to draw, and how it looks."""
+    name, language = session.created.language, get_language(session.created.language)
+    if language is None:
+        raise RuntimeError("free sessions have no prompts")
+    signs, drawing = examples(name, session.created.seed, request)
+    return {
+        "movement": request.movement,
+        "focus": request.focus,
+        "text": prompt_text(language, request),
+        "signs": list(sign_labels(language, request)),
+        "movement_name": language.movements[request.movement],
+        "examples": [sign_json(sign) for sign in signs],
+        "drawing": sign_json(drawing),
+    }
+
+
+def _draft_json(draft: Draft) -> dict[str, Any]:
+    drawn = {place: [stroke_to_json(stroke) for stroke in strokes] for place, strokes in draft.drawn.items()}
+    return {"number": draft.number, "drawn": drawn}
+
+
+def _next_json(session: OpenSession, language: Language | None) -> dict[str, Any]:
+    if language is None:
+        return {"prompt": None, "left": 0}
+    prompts = [shown.prompt for shown in session.history.shown]
+    request, left = next_request(language, session.created.seed, prompts)
+    return {"prompt": prompt_json(session, request), "left": left}
+
+
+def _listed_json(session: OpenSession, number: int, shown: Shown) -> dict[str, Any]:
+    model = session.understood.model
+    belief = session.understood.belief or {}
+    doubtful = {doubt["number"] for doubt in belief.get("doubtful", ())}
+    return {
+        "number": number,
+        "prompt": _request_json(shown.prompt),
+        "focus": None if model is None else int(model.focus[number]),
+        "movement": None if model is None else int(model.labels[number]),
+        "sure": model is not None and number not in doubtful,
+        "by": shown.by,
+    }
+
+
+def _request_json(request: Request | None) -> dict[str, int] | None:
+    return None if request is None else {"movement": request.movement, "focus": request.focus}
+
+
+def _language_json(name: str, language: Language) -> dict[str, Any]:
+    return {
+        "name": name,
+        "objects": [object_name(i) for i in range(language.objects)],
+        "movements": list(language.movements),
+        "focus_signs": list(language.focus_signs),
+        "movement_signs": list(language.movement_signs),
+        "focus_word": language.focus_word,
+        "movement_word": language.movement_word,
+        "unseen": [_request_json(request) for request in sorted(language.held_back)],
+    }
+
+
+def track_json(parts: list[dict[str, Any]]) -> dict[str, Any]:
+    """Return what the arm did in an answer, from the parts of its track."""
+    path = [place for part in parts for place in part["path"]]
+    objects: list[Any] = []
+    for part in parts:
+        for step, places in enumerate(part["objects"], part["first"]):
+            if not objects or objects[-1][1] != places:
+                objects.append([round(step / part["rate"], 2), places])
+    times = np.arange(len(path)) / (parts[0]["rate"] if parts else 1)
+    return {"path": path, "times": np.round(times, 2).tolist(), "objects": objects}

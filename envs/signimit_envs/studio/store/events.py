@@ -1,0 +1,245 @@
+"""What can happen in a session, as immutable values and as JSON.
+
+A session is nothing but the list of its events: whoever has the list has the session.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.demonstrations import Demonstration
+from signimit.exceptions import InvalidInputError
+from signimit.strokes import Stroke
+from signimit.teaching.languages import Request
+from signimit.validation import finite_array
+from signimit_envs.arm.scene import OBJECT_COUNTS
+
+Signs = tuple[Stroke, ...]
+QUESTION = "question"
+PLACES = ("sign 1", "sign 2", "hand", QUESTION)  # where a stroke of a draft can be; the last is the first sign in Ask
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """A demonstration as it was drawn.
+
+    Attributes:
+        signs: The utterance, any unit, y up.
+        objects: Object positions, shape (O, 2), m, table frame; read-only.
+        hand: The demonstrator's hand, m, table frame.
+        prompt: What was asked for; none where people made up their own signs. Never told to the learner.
+        by: Who drew it, e.g. ``"person"``.
+    """
+
+    signs: Signs
+    objects: NDArray[np.float64]
+    hand: Stroke
+    prompt: Request | None = None
+    by: str = "person"
+
+    def __post_init__(self) -> None:
+        """Check the scene.
+
+        Raises:
+            InvalidInputError: If the objects are no positions.
+        """
+        object.__setattr__(self, "objects", finite_array(self.objects, "objects", (None, 2)))
+
+    @property
+    def demonstration(self) -> Demonstration:
+        """What the imitator may see of it."""
+        return Demonstration(tuple(s.points for s in self.signs), self.objects, self.hand.points, self.hand.times)
+
+
+@dataclass(frozen=True, eq=False)
+class Created:
+    """A session began; always the first event.
+
+    Attributes:
+        title: What it is called at first.
+        created: When, ISO 8601, local time.
+        language: Name of the language, or that there is none.
+        objects: Objects in a scene.
+        seed: Decides scenes, prompts and built-in people.
+    """
+
+    title: str
+    created: str
+    language: str
+    objects: int
+    seed: int
+
+    def __post_init__(self) -> None:
+        """Check what comes from a file.
+
+        Raises:
+            InvalidInputError: If it is something else.
+        """
+        texts = all(isinstance(text, str) for text in (self.title, self.created, self.language))
+        numbers = all(type(number) is int and number >= 0 for number in (self.objects, self.seed))
+        if not texts or not numbers or self.objects not in OBJECT_COUNTS:
+            found = f"{(self.title, self.created, self.language, self.objects, self.seed)!r:.80}"
+            raise InvalidInputError("session", "a title, a time, a language, 2 to 6 objects and a seed", found)
+
+
+@dataclass(frozen=True, eq=False)
+class Demonstrated:
+    """Demonstrations were added at the end."""
+
+    shown: tuple[Shown, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Redrawn:
+    """A demonstration took the place of an earlier one."""
+
+    number: int
+    shown: Shown
+
+
+@dataclass(frozen=True, eq=False)
+class Deleted:
+    """A demonstration was taken out."""
+
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class Drafted:
+    """Somebody drew a part of what is not sent yet, or cleared it.
+
+    Attributes:
+        number: Of the demonstration that is drawn again; none for a new one.
+        drawn: What is drawn now at places out of `PLACES`, one stroke for each time that the pen was down.
+    """
+
+    number: int | None
+    drawn: Mapping[str, Signs]
+
+
+@dataclass(frozen=True, eq=False)
+class Undone:
+    """The last edit was taken back."""
+
+
+@dataclass(frozen=True, eq=False)
+class Redone:
+    """The last undo was taken back."""
+
+
+@dataclass(frozen=True, eq=False)
+class Titled:
+    """The session was given another title."""
+
+    title: str
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """The arm was asked for something, and understood it so.
+
+    Attributes:
+        signs: The utterance.
+        movement: Number of the movement understood, in the imitator's numbering of that moment.
+        focus: Number of the object understood.
+        confidence: Probability that both are right, in the imitator's eyes.
+        request: What a built-in interactant meant; unknown of a person.
+    """
+
+    signs: Signs
+    movement: int
+    focus: int
+    confidence: float
+    request: Request | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """A person said whether an answer was right; none takes the verdict back."""
+
+    number: int
+    good: bool | None
+
+
+Event = Created | Demonstrated | Redrawn | Deleted | Drafted | Undone | Redone | Titled | Asked | Judged
+_KINDS: Mapping[str, type[Event]] = {
+    kind.__name__.lower(): kind
+    for kind in (Created, Demonstrated, Redrawn, Deleted, Drafted, Undone, Redone, Titled, Asked, Judged)
+}
+
+
+def event_to_json(event: Event) -> dict[str, Any]:
+    """Return an event as JSON can say it, exactly."""
+    values = {field.name: _plain(getattr(event, field.name)) for field in dataclasses.fields(event)}
+    return {"event": type(event).__name__.lower(), **values}
+
+
+def event_from_json(value: Mapping[str, Any]) -> Event:
+    """Read what `event_to_json` made.
+
+    Raises:
+        InvalidInputError: If it is something else.
+    """
+    try:
+        kind = _KINDS[value["event"]]
+        fields = {field.name: value[field.name] for field in dataclasses.fields(kind)}
+        return kind(**{name: _restored(name, given) for name, given in fields.items()})
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        if isinstance(error, InvalidInputError):
+            raise
+        raise InvalidInputError("event", f"one of {', '.join(_KINDS)}, whole", f"{error!r:.80}") from None
+
+
+def stroke_to_json(stroke: Stroke) -> dict[str, Any]:
+    """Return a stroke as lists of points and of times."""
+    return {"points": stroke.points.tolist(), "times": stroke.times.tolist()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Stroke):
+        return stroke_to_json(value)
+    if isinstance(value, Shown):
+        return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, Mapping):
+        return {name: _plain(item) for name, item in value.items()}
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, Request):
+        return list(value)
+    return [_plain(item) for item in value] if isinstance(value, tuple) else value
+
+
+def _restored(name: str, value: Any) -> Any:
+    """Turn the JSON of a field back into what it was."""
+    if name == "shown":
+        return _shown(value) if isinstance(value, Mapping) else tuple(_shown(item) for item in value)
+    if name == "signs":
+        return _strokes(value)
+    if name == "drawn":
+        return {place: _strokes(strokes) for place, strokes in value.items()}
+    if name == "request":
+        return _request(value)
+    return value
+
+
+def _shown(value: Mapping[str, Any]) -> Shown:
+    objects = np.asarray(value["objects"])
+    return Shown(_strokes(value["signs"]), objects, _stroke(value["hand"]), _request(value["prompt"]), str(value["by"]))
+
+
+def _stroke(value: Mapping[str, Any]) -> Stroke:
+    return Stroke(np.asarray(value["points"]), np.asarray(value["times"]))
+
+
+def _strokes(values: Sequence[Mapping[str, Any]]) -> Signs:
+    return tuple(_stroke(value) for value in values)
+
+
+def _request(value: Sequence[int] | None) -> Request | None:
+    return None if value is None else Request(int(value[0]), int(value[1]))

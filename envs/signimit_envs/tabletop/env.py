@@ -1,0 +1,243 @@
+"""`signimit/Tabletop-v0`: signs to obey with a planar arm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar
+
+import gymnasium as gym
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from signimit import InvalidInputError, UnknownNameError
+from signimit.teaching.languages import Language
+from signimit.teaching.people.casting import Source
+from signimit_envs.arm.arm import Arm
+from signimit_envs.arm.inverse_kinematics import HandController
+from signimit_envs.arm.scene import CONTROL_RATE, compile_scene
+from signimit_envs.tabletop.actions import MAX_HAND_SPEED, checked_action, make_control
+from signimit_envs.tabletop.language_options import choose_language, choose_person
+from signimit_envs.tabletop.observations import Sight, make_observer
+from signimit_envs.tabletop.people import People
+from signimit_envs.tabletop.reset_options import draw_situation
+from signimit_envs.tabletop.rewards import make_reward
+from signimit_envs.tabletop.success import SuccessDetector
+from signimit_envs.video.rendering import OffscreenView, WindowView, has_display
+
+_LEAST_RESIDUAL = 1e-3  # m, farther than this from where it should start the hand is out of reach
+_CAMERAS = ("perspective", "top")
+_MODES = ("rgb_array", "human")
+
+
+class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
+    """Obey two signs, unlabelled strokes, with a planar three-joint arm over a table with coloured objects.
+
+    A person makes signs; in this person's language one names an object and one a movement about it. Nobody says so:
+    the request behind the signs is in ``info``, for scoring only. Metres, seconds, radians; x right, y away from the
+    arm's base, origin at the middle of the table.
+
+    Action space:
+        What is beyond -1 and 1 is clipped; the joints stop at their limits. ``control`` decides what an action is:
+
+        =================== ========================= ================================================== ===========
+        ``control``         space                     meaning of an element, held for 1/50 s             unit of 1
+        =================== ========================= ================================================== ===========
+        ``joint``           Box(-1, 1, (3,), float32) angular velocity of shoulder, elbow and wrist      3.5 rad/s
+        ``hand``            Box(-1, 1, (2,), float32) velocity of the hand along x and y; mink solves    1.2 m/s
+                                                      for the joints, as far as they reach
+        =================== ========================= ================================================== ===========
+
+    Observation space:
+        ``obs_type="state"``: a ``Dict`` of finite float64 boxes, O objects and W signs:
+
+        ==================== ============ =====================================================================
+        key                  shape        meaning
+        ==================== ============ =====================================================================
+        ``hand``             (2,)         position of the hand, m
+        ``hand_velocity``    (2,)         its velocity, m/s
+        ``joints``           (3,)         angles of shoulder, elbow and wrist, rad
+        ``joint_velocities`` (3,)         their velocities, rad/s
+        ``objects``          (O, 2)       positions of the objects, red, green, blue and so on, m
+        ``signs``            (W, 64, 2)   the signs, evenly resampled, centred, scaled to [-1, 1]
+        ==================== ============ =====================================================================
+
+        ``obs_type="pixels"``: ``Box(0, 255, (height, width, 3), uint8)``, one picture. Its upper quarter shows the
+        signs on cards, in order, each stroke from black at its beginning to orange at its end; below is what the camera
+        sees. Velocities are not in a picture: stack frames (`gymnasium.wrappers.FrameStackObservation`).
+
+        ``obs_type="state_pixels"``: the ``Dict`` with that picture as ``pixels``.
+
+        Pictures need OpenGL; without one the first reset raises a `RenderingError`. `render` shows the scene alone:
+        with `gymnasium.wrappers.AddRenderObservation` say ``render_only=False``, or the signs are not observed.
+
+    Reward:
+        ``reward="sparse"``: 1 at the step where the request is seen to be fulfilled for the first time, else 0. The
+        path of up to the last 12 s is looked at every half second, first after 1.5 s: a look costs ten steps, so the
+        reward may come up to half a second after the deed. `signimit.performed` is the judge.
+
+        ``reward="dense"``: that plus γ Φ(s') - Φ(s), with γ the ``discount``; it leaves optimal policies as they are
+        (Ng, Harada and Russell, ICML 1999). The potential Φ, in [0, 1], is 3/4 of how much of the requested drawing
+        the hand has passed, the drawing's way, plus 1/4 of how close it is to it
+        (`signimit_envs.tabletop.rewards.Potential`). It is 0 after a blow-up.
+
+    Starting state:
+        What ``reset(options=...)`` gives of ``movement``, ``focus``, ``objects`` (O, 2), ``hand`` (2,) and ``signs``
+        (W strokes of any length); the rest is drawn: objects and hand within 0.22 m and 0.18 m of the middle, objects
+        at least 0.14 m apart. The arm rests.
+
+    Episode end:
+        Truncated after 12 s (600 steps). Success does not end an episode. A blow-up of the physics terminates it.
+
+    Info:
+        ``request`` (movement, focus), ``is_success`` (in this episode so far), ``performance`` (a
+        `signimit.Performance`, of the moment of success; movement -1 before), ``ik_residual`` (m, what of the last
+        displacement of the hand was beyond the arm; 0 with joint control), ``physics_error`` (what went wrong; empty if
+        nothing).
+
+    Args:
+        render_mode: ``"rgb_array"`` or, with a display, ``"human"``.
+        objects: Number of objects, 2 to 6; 3 if nothing says otherwise.
+        movements: Labels of the movements that can be asked for, out of
+            `signimit.teaching.people.MOVEMENT_LABELS`; the paper's three if nothing says otherwise.
+        people_seed: Who signs, and whose drawings the judge compares with.
+        camera: ``"perspective"`` or ``"top"``.
+        size: Width and height of pictures, rendered or observed, pixels; at most 1280, at least 32 to observe.
+        obs_type: ``"state"``, ``"pixels"`` or ``"state_pixels"``.
+        control: ``"joint"`` or ``"hand"``; the default of ``signimit/TabletopHand-v0`` is the latter.
+        language: A `signimit.teaching.languages.Language`, or a mapping of its fields, which an `EnvSpec` can keep
+            as JSON: signs of the objects and of the movements, their order, fillers. It brings its own number of objects and
+            its movements. Left out: digits, the first ones for the objects and the next for the movements, object
+            first. ``prototypes``, ``unseen`` and ``repetitions`` are about demonstrations and do nothing here.
+        signer: Stroke library file with the signs, or the file and a person in it; left out, a synthetic person.
+        mover: The same for the drawings that the judge compares with.
+        reward: ``"sparse"`` or ``"dense"``.
+        discount: The γ of the dense reward; give the agent the same.
+
+    Version history:
+        v0: first version.
+    """
+
+    metadata: dict[str, Any] = {  # noqa: RUF012 -- gymnasium declares it so
+        "render_modes": list(_MODES) if has_display() else ["rgb_array"],
+        "render_fps": CONTROL_RATE,
+    }
+    max_hand_speed: ClassVar[float] = MAX_HAND_SPEED
+    """Speed in m/s along each axis that an action of 1 stands for with hand control."""
+
+    def __init__(
+        self,
+        render_mode: str | None = None,
+        objects: int | None = None,
+        movements: Sequence[str] | None = None,
+        people_seed: int = 0,
+        camera: str = "perspective",
+        size: tuple[int, int] = (480, 480),
+        *,
+        obs_type: str = "state",
+        control: str = "joint",
+        language: Language | Mapping[str, Any] | None = None,
+        signer: Source | Sequence[str | None] | str | None = None,
+        mover: Source | Sequence[str | None] | str | None = None,
+        reward: str = "sparse",
+        discount: float = 0.99,
+    ) -> None:
+        """Build the scene; see the class for the arguments."""
+        if render_mode not in (None, *_MODES):
+            raise UnknownNameError("render mode", render_mode, _MODES)
+        if camera not in _CAMERAS:
+            raise UnknownNameError("camera", camera, _CAMERAS)
+        self.render_mode = render_mode
+        spoken = choose_language(language, objects, movements)
+        self._arm = Arm(compile_scene(spoken.objects))
+        self.model, self.data = self._arm.model, self._arm.data
+        self.people = People.sample(
+            spoken, np.random.default_rng(people_seed), choose_person(signer, "signer"), choose_person(mover, "mover")
+        )
+        self.controller = HandController(self.model)
+        self.control, self._control = control, make_control(control, self.controller)
+        self.action_space = gym.spaces.Box(-1.0, 1.0, (self._control.size,), np.float32)
+        self._observer = make_observer(obs_type, self._arm, spoken.words, Sight(camera, *size))
+        self.observation_space = self._observer.space
+        self._judge = SuccessDetector(self.people.templates)
+        self._reward = make_reward(reward, discount)
+        self._camera = camera
+        self._offscreen = OffscreenView(self.model, *size)
+        self._window = WindowView(self.model) if render_mode == "human" else None
+
+    def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Start an episode.
+
+        Args:
+            seed: Seed of everything that is drawn from now on.
+            options: Any of movement, focus, objects (O, 2), hand (2,) and signs (W strokes); the rest is drawn.
+
+        Raises:
+            SignimitError: If an option is unknown or cannot be used.
+            RenderingError: If pictures are to be observed and there is no OpenGL.
+        """
+        super().reset(seed=seed)
+        start = draw_situation(options, self.people, len(self._arm.object_bodies), self.np_random)
+        joints, away = self.controller.posture_at(start.hand)
+        if away > _LEAST_RESIDUAL:
+            raise InvalidInputError("reset option hand", "a position within the arm's reach", f"{start.hand}")
+        self._request = start.request
+        self._arm.place(start.objects, joints)
+        self._judge.start(start.request, start.objects, start.hand)
+        self._reward.start(self._judge.drawing, start.objects[start.request.focus], start.hand)
+        self._observer.start(start)
+        if self.render_mode == "human":
+            self.render()
+        return self._observer.observe(), self._info(0.0, "")
+
+    def step(self, action: ArrayLike) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Do one control step of 1/50 s.
+
+        Args:
+            action: Within [-1, 1]; what is beyond is clipped.
+
+        Raises:
+            InvalidInputError: If the action has another shape or is not finite.
+        """
+        arm = self._arm
+        command = self._control.command(checked_action(action, self._control.size), self.data.qpos)
+        error = arm.track(command.velocities)
+        fulfilled = not error and self._judge.watch(arm.hand)
+        reward = self._reward.of_step(arm.hand, fulfilled, bool(error))
+        if self.render_mode == "human":
+            self.render()
+        return self._observer.observe(), reward, bool(error), False, self._info(command.residual, error)
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """Return a frame, shape (height, width, 3), or bring the window up to date.
+
+        Raises:
+            RenderingError: If there is no OpenGL or no display.
+        """
+        if self._window is not None:
+            self._window.show(self.data)
+            return None
+        if self.render_mode is None:
+            gym.logger.warn("render() does nothing without a render_mode: gym.make(..., render_mode='rgb_array').")
+            return None
+        return self._offscreen.frame(self.data, self._camera)
+
+    @property
+    def hand(self) -> NDArray[np.float64]:
+        """Where the hand is, shape (2,), m, whatever is observed; a copy."""
+        return np.array(self._arm.hand, dtype=np.float64)
+
+    def close(self) -> None:
+        """Free windows and OpenGL; may be called again."""
+        self._offscreen.close()
+        self._observer.close()
+        if self._window is not None:
+            self._window.close()
+
+    def _info(self, residual: float, error: str) -> dict[str, Any]:
+        return {
+            "request": self._request,
+            "is_success": self._judge.done,
+            "performance": self._judge.performance,
+            "ik_residual": residual,
+            "physics_error": error,
+        }

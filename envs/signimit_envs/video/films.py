@@ -1,0 +1,95 @@
+"""Films of a session: its story, and one answer to every pair of signs at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import closing
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.summary import object_name
+from signimit.teaching.languages import Language, Request
+from signimit_envs.arm.scene import CONTROL_RATE
+from signimit_envs.sessions.session import Reproduction, SessionResult
+from signimit_envs.video.overlays import draw_caption, draw_card, draw_label, draw_signs
+from signimit_envs.video.scene_renderer import SceneRenderer
+from signimit_envs.video.storyboard import STRIDE, Shot, tell_story
+
+Frame = NDArray[np.uint8]
+SCENE_SIZE, SIGNS_WIDTH, CAPTION_HEIGHT = (640, 480), 320, 64  # pixels
+TILE = 320  # pixels
+GRID_SECONDS = 8.0
+
+
+class Film(NamedTuple):
+    """A film that is drawn while it is watched.
+
+    Attributes:
+        frames: Its frames, each (height, width, 3); a `RenderingError` comes with the first if there is no OpenGL.
+        length: How many there will be.
+    """
+
+    frames: Iterator[Frame]
+    length: int
+
+
+def film_story(result: SessionResult) -> Film:
+    """Film the story of a session."""
+    return film_shots(list(tell_story(result)), result.session.plan.language.objects)
+
+
+def film_shots(shots: Sequence[Shot], objects: int) -> Film:
+    """Film shots of scenes with so many objects, in frames of shape (544, 960, 3)."""
+    return Film(_draw_shots(shots, objects), len(shots))
+
+
+def film_grid(result: SessionResult) -> Film:
+    """Film the first answer to every pair of signs, all at once, rows movements and columns objects."""
+    first: dict[Request, Reproduction] = {}
+    for reproduction in result.reproductions:
+        first.setdefault(reproduction.command.request, reproduction)
+    steps = min(len(r.answer.path) for r in first.values())
+    ends = range(1, min(steps, round(GRID_SECONDS * CONTROL_RATE)) + 1, STRIDE)
+    return Film(_draw_grid(list(first.values()), result.session.plan.language, ends), len(ends))
+
+
+def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
+    with closing(SceneRenderer(objects, *SCENE_SIZE)) as stage:
+        for shot in shots:
+            yield draw_shot(shot, stage)
+
+
+def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
+    """Draw frame by frame where the hands are after each of ``ends`` control steps."""
+    with closing(SceneRenderer(language.objects, TILE, TILE)) as stage:
+        for end in ends:
+            tiles = [_draw_tile(r, end, language.movements[r.command.request.movement], stage) for r in reproductions]
+            rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
+            yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
+
+
+def draw_shot(shot: Shot, stage: SceneRenderer) -> Frame:
+    """Draw a shot: signs to the left, the scene to the right, the caption below."""
+    width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
+    caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
+    if shot.card:
+        return np.vstack([draw_card((width, height), shot.card), caption])
+    signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
+    return np.vstack([np.hstack([signs, stage.picture(shot, "perspective")]), caption])
+
+
+def _draw_tile(reproduction: Reproduction, end: int, movement: str, stage: SceneRenderer) -> Frame:
+    command = reproduction.command
+    shot = Shot(
+        phase="D",
+        caption="",
+        objects=command.scene.objects,
+        joints=reproduction.answer.joints[end - 1],
+        trail=reproduction.answer.path[:end],
+    )
+    lines = [f"{movement}, {object_name(command.request.focus)}"]
+    if not command.seen:
+        lines.append("never demonstrated")
+    return draw_label(stage.picture(shot, "top"), lines, command.signs, framed=not command.seen)

@@ -1,0 +1,107 @@
+"""Video files, written as the frames come, and there only when whole."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Generator, Iterable, Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+import imageio_ffmpeg
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit import InvalidInputError
+from signimit.io.safe_files import replaced_path
+from signimit_envs.arm.scene import CONTROL_RATE
+
+
+def write_video(path: str | os.PathLike[str], frames: Iterable[NDArray[np.uint8]], rate: float = CONTROL_RATE) -> int:
+    """Write frames to an mp4 file (H.264) that appears under its name when the last one is in.
+
+    Args:
+        path: The file; one that is there is replaced.
+        frames: Each of shape (height, width, 3), all alike, sides even.
+        rate: Frames per second.
+
+    Returns:
+        The number of frames.
+
+    Raises:
+        InvalidInputError: If there are no frames, they are not alike, or the file is not to be an mp4; nothing is left
+            behind then.
+    """
+    with open_video(path, rate) as video:
+        for frame in frames:
+            video.add(frame)
+    return video.count
+
+
+@contextmanager
+def open_video(path: str | os.PathLike[str], rate: float = CONTROL_RATE) -> Iterator[VideoStream]:
+    """Open an mp4 file (H.264) for frames that come one by one; it appears under its name when the block is left.
+
+    Args:
+        path: The file; one that is there is replaced.
+        rate: Frames per second.
+
+    Yields:
+        What takes the frames.
+
+    Raises:
+        InvalidInputError: If no frame came, or the file is not to be an mp4; nothing is left behind then.
+    """
+    if Path(path).suffix.lower() != ".mp4":
+        raise InvalidInputError("video", "a name that ends in .mp4", os.fspath(path))
+    with replaced_path(path, ".mp4") as beside:
+        with closing(VideoStream(beside, rate)) as stream:
+            yield stream
+        if not stream.count:
+            raise InvalidInputError("video", "at least one frame", "none")
+
+
+class VideoStream:
+    """Encodes frames into a file as they come.
+
+    Attributes:
+        count: How many came.
+    """
+
+    def __init__(self, path: Path, rate: float) -> None:
+        """Remember where to; the first frame decides the size."""
+        self._path, self._rate, self.count = path, rate, 0
+        self._shape: tuple[int, ...] = ()
+        self._writer: Generator[None, NDArray[np.uint8] | None, None] | None = None
+
+    def add(self, frame: NDArray[np.uint8]) -> None:
+        """Take the next frame, shape (height, width, 3).
+
+        Raises:
+            InvalidInputError: If it is no such frame, or not like the first.
+        """
+        _check(frame, self._shape or frame.shape)
+        if self._writer is None:
+            self._shape, self._writer = frame.shape, self._open(frame.shape)
+        self._writer.send(np.ascontiguousarray(frame))
+        self.count += 1
+
+    def close(self) -> None:
+        """Finish the file; may be called again."""
+        if self._writer is not None:
+            self._writer.close()
+            self._writer = None
+
+    def _open(self, shape: tuple[int, ...]) -> Generator[None, NDArray[np.uint8] | None, None]:
+        size = shape[1], shape[0]
+        writer: Generator[None, NDArray[np.uint8] | None, None] = imageio_ffmpeg.write_frames(
+            str(self._path), size, fps=self._rate, quality=7, macro_block_size=2, ffmpeg_log_level="error"
+        )
+        writer.send(None)
+        return writer
+
+
+def _check(frame: NDArray[np.uint8], shape: tuple[int, ...]) -> None:
+    even = frame.ndim == 3 and frame.shape[2] == 3 and frame.shape[0] % 2 == frame.shape[1] % 2 == 0
+    if not even or frame.shape != shape or frame.dtype != np.uint8:
+        expected = "frames (height, width, 3) of bytes, all alike, sides even"
+        raise InvalidInputError("video", expected, f"{frame.dtype} of shape {frame.shape}")

@@ -1,0 +1,157 @@
+"""The story of a session, shot by shot, as in the paper's figure 1: what is to be seen, before any of it is drawn.
+
+A: the interactant signs. B: the demonstrator answers. After all demonstrations a card says what the robot understood.
+C: the interactant signs again, in a new scene. D: the robot answers. Demonstrations are numbered from 0, as everywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.demonstrations import Demonstration
+from signimit.summary import object_name, ordinal
+from signimit_envs.arm.scene import CONTROL_RATE
+from signimit_envs.sessions.session import Answer, Reproduction, SessionResult
+
+FRAME_RATE = 25  # frames/s of a film
+STRIDE = CONTROL_RATE // FRAME_RATE  # control steps a frame
+SIGN_FRAMES = 24  # in which a sign is drawn
+PAUSE_FRAMES = 12
+CARD_FRAMES = 5 * FRAME_RATE
+HASTE = 8  # how much faster all demonstrations but the first go by
+ANSWER_SECONDS = 6.0
+PARKED = np.array([-1.9, 2.4, 2.2])  # rad, joint angles of an arm that only watches
+NOWHERE = np.zeros((0, 2))
+for _array in (PARKED, NOWHERE):
+    _array.setflags(write=False)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Shot:
+    """What one frame shows.
+
+    Attributes:
+        phase: A, B, C or D of the paper's figure 1; empty for a card.
+        caption: What happens, in words.
+        signs: The signs as far as they are drawn, each (T, 2), any unit.
+        boxes: The signs when they are complete, for a steady scale.
+        objects: Object positions, shape (O, 2), m.
+        joints: The arm's joint angles, shape (3,), rad.
+        human_hand: Where the demonstrator's hand is, shape (2,), m; None where it is away.
+        trail: Where the hand that acts has been, shape (T, 2), m.
+        card: Lines that are shown instead of the scene.
+    """
+
+    phase: str
+    caption: str
+    signs: tuple[NDArray[np.float64], ...] = ()
+    boxes: tuple[NDArray[np.float64], ...] = ()
+    objects: NDArray[np.float64] = field(default_factory=lambda: NOWHERE)
+    joints: NDArray[np.float64] = field(default_factory=lambda: PARKED)
+    human_hand: NDArray[np.float64] | None = None
+    trail: NDArray[np.float64] = field(default_factory=lambda: NOWHERE)
+    card: tuple[str, ...] = ()
+
+
+def tell_story(result: SessionResult) -> Iterator[Shot]:
+    """Tell a session: its demonstrations, what was understood, and an answer to each pair never demonstrated.
+
+    The answers are the first attempts, obeyed or not.
+    """
+    yield from show_demonstration(result, 0, 1)
+    for number in range(1, len(result.session.demonstrations)):
+        yield from show_demonstration(result, number, HASTE)
+    yield from show_card(result)
+    asked = set()
+    for reproduction in result.reproductions:
+        request = reproduction.command.request
+        if not reproduction.command.seen and request not in asked:
+            asked.add(request)
+            yield from show_reproduction(result, reproduction)
+
+
+def show_demonstration(result: SessionResult, number: int, haste: int) -> Iterator[Shot]:
+    """Show the signs being made (A) and the demonstrator's answer (B), ``haste`` times faster than they were."""
+    demonstrations = result.session.demonstrations
+    title = f"Demonstration {number} (0 to {len(demonstrations) - 1})" + (
+        f", {haste} times faster" if haste > 1 else ""
+    )
+    yield from show_exchange(demonstrations[number], title, haste)
+
+
+def show_exchange(demonstration: Demonstration, title: str, haste: int = 1) -> Iterator[Shot]:
+    """Show a demonstration under a title: the signs being made (A), then the demonstrator's answer (B)."""
+    scene = Shot(phase="A", caption=f"{title}: the interactant signs", objects=demonstration.objects)
+    yield from _signing(scene, demonstration.signs, haste)
+    scene = replace(
+        scene,
+        phase="B",
+        caption=f"{title}: the demonstrator answers, the robot watches",
+        signs=demonstration.signs,
+        boxes=demonstration.signs,
+    )
+    for end in _ends(len(demonstration.hand), STRIDE * haste):
+        yield replace(scene, human_hand=demonstration.hand[end - 1], trail=demonstration.hand[:end])
+    yield from [replace(scene, trail=demonstration.hand)] * (PAUSE_FRAMES // haste)
+
+
+def show_card(result: SessionResult) -> Iterator[Shot]:
+    """Show what the robot understood, as told by its model."""
+    model = result.model
+    order = model.word_order
+    groups = [", ".join(str(t) for t in movement.members) for movement in model.movements]
+    lines = (
+        "What the robot understood, without having been told anything:",
+        "",
+        f"The demonstrator knows {len(groups)} movements:",
+        *(f"    one in demonstrations {members}" for members in groups),
+        "",
+        f"The {ordinal(order.focus)} sign names the object,",
+        f"the {ordinal(order.movement)} sign names the movement.",
+    )
+    yield from [Shot(phase="", caption="After the demonstrations", card=lines)] * CARD_FRAMES
+
+
+def show_reproduction(result: SessionResult, reproduction: Reproduction) -> Iterator[Shot]:
+    """Show a command being given to the robot (C), and what it does (D)."""
+    command, language = reproduction.command, result.session.plan.language
+    shown = "shown in a demonstration" if command.seen else "never shown in any demonstration"
+    asked = f"{language.movements[command.request.movement]}, {object_name(command.request.focus)}"
+    verdict = "obeyed" if reproduction.obeyed else "not obeyed"
+    captions = f"New scene, a pair of signs {shown}", f"The robot answers. Asked for: {asked}"
+    end = round(ANSWER_SECONDS * CONTROL_RATE) + 1
+    answer = reproduction.answer._replace(path=reproduction.answer.path[:end], joints=reproduction.answer.joints[:end])
+    shots = list(show_answer(command.signs, command.scene.objects, answer, captions))
+    yield from shots
+    yield from [replace(shots[-1], caption=f"{captions[1]}: {verdict}")] * FRAME_RATE
+
+
+def show_answer(
+    signs: Sequence[NDArray[np.float64]], objects: NDArray[np.float64], answer: Answer, captions: tuple[str, str]
+) -> Iterator[Shot]:
+    """Show signs being made to the robot (C), and what it does (D), each with its caption."""
+    scene = Shot(phase="C", caption=captions[0], objects=objects, joints=answer.joints[0])
+    yield from _signing(scene, signs, 1)
+    scene = replace(scene, phase="D", caption=captions[1], signs=tuple(signs), boxes=tuple(signs))
+    for end in _ends(len(answer.path), STRIDE):
+        yield replace(scene, joints=answer.joints[end - 1], trail=answer.path[:end])
+
+
+def _signing(scene: Shot, signs: Sequence[NDArray[np.float64]], haste: int) -> Iterator[Shot]:
+    """Draw the signs one after the other, then pause."""
+    done: tuple[NDArray[np.float64], ...] = ()
+    scene = replace(scene, boxes=tuple(signs))
+    for sign in signs:
+        for end in _ends(len(sign), max(1, round(len(sign) * haste / SIGN_FRAMES))):
+            yield replace(scene, signs=(*done, sign[:end]))
+        done = (*done, sign)
+    yield from [replace(scene, signs=done)] * (PAUSE_FRAMES // haste)
+
+
+def _ends(length: int, stride: int) -> list[int]:
+    """Return how much of a sequence has been seen, frame by frame, ending with all of it."""
+    return [*range(1, length, stride), length]

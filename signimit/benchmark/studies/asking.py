@@ -1,0 +1,151 @@
+"""Lessons in which the imitator asks: how soon does it understand, by what it asks for."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.benchmark.studies.cells import Cell, People, cast_strokes
+from signimit.demonstrations import Demonstration, DemonstrationSet
+from signimit.inference import WordOrder
+from signimit.io.records import Record
+from signimit.learning import ImitationModel, learn
+from signimit.teaching.composition import compose_loops, compose_path, compose_utterance
+from signimit.teaching.languages import Language, Request
+from signimit.teaching.scenes import sample_hand, sample_scene, sample_times
+from signimit.teaching.stroke_sampler import StrokeSampler
+
+SCENES = 8  # that there are to choose from, each time
+SAMPLES = 40  # strokes of each label by a synthetic person
+ASKED = 20  # demonstrations at the end of a lesson; with few pairs, twice each
+
+
+def asking_cells(real: bool) -> list[Cell]:
+    """Return the cells in which lessons are given."""
+    cells = [Cell(movements=m, objects=o, repetitions=1) for m, o in ((3, 3), (5, 4))]
+    cells.append(Cell(movements=5, objects=3, repetitions=1, condition="noise"))
+    if real:
+        cells += [Cell(movements=m, objects=o, repetitions=1, people="real") for m, o in ((3, 3), (5, 4))]
+    return cells
+
+
+class Question(NamedTuple):
+    """What the interactant is asked to sign, and the scene to answer in, shape (O, 2), m."""
+
+    request: Request
+    objects: NDArray[np.float64]
+
+
+Ask = Callable[["Lesson", ImitationModel, NDArray[np.float64]], Question]
+
+
+class Lesson:
+    """People, a language, and what was shown so far. Knows the truth; the imitator is asked by its model only."""
+
+    def __init__(self, cell: Cell, seed: int, people: People | None) -> None:
+        """Show every sign once; with odd seeds the movement is named first."""
+        self.rng = np.random.default_rng([seed, cell.movements, cell.objects])
+        plain = cell.language
+        self.language = Language(
+            focus_signs=plain.focus_signs, movement_signs=plain.movement_signs, movements=plain.movements,
+            focus_word=seed % 2, movement_word=1 - seed % 2, unseen=(),
+        )  # fmt: skip
+        signs, movements = cast_strokes(cell, self.rng, people, SAMPLES)
+        self.signs, self.movements = StrokeSampler(signs), StrokeSampler(movements)
+        self.requests: list[Request] = []
+        self.demonstrations: list[Demonstration] = []
+        for request in self._first_requests():
+            self.show(Question(request, self.scenes(1)[0]))
+        self.commands = [
+            (request, compose_utterance(self.language, self.signs, *request, self.rng), self.scenes(1)[0])
+            for request in self.language.requests
+        ]
+
+    def _first_requests(self) -> list[Request]:
+        """Pair movements and objects at random so that each comes at least once and as few are shown as can be."""
+        many, objects = len(self.language.movements), self.language.objects
+        count = max(many, objects)
+        movement, focus = (self.rng.permutation(np.arange(count) % n).tolist() for n in (many, objects))
+        return [Request(m, f) for m, f in zip(movement, focus, strict=True)]
+
+    def scenes(self, count: int) -> NDArray[np.float64]:
+        """Draw scenes, shape (count, O, 2), m."""
+        return np.stack([sample_scene(self.rng, self.language.objects) for _ in range(count)])
+
+    def show(self, question: Question) -> None:
+        """Let the people answer a question, and remember both."""
+        (movement, focus), objects = question
+        signs = compose_utterance(self.language, self.signs, movement, focus, self.rng)
+        loops = compose_loops(self.language, self.movements, movement, self.rng)
+        hand = compose_path(sample_hand(self.rng), [loop + objects[focus] for loop in loops])
+        self.requests.append(Request(movement, focus))
+        self.demonstrations.append(Demonstration(signs, objects, hand, sample_times(len(hand))))
+
+    def meaning(self, copied: Sequence[int]) -> Request:
+        """Return what signs copied from demonstrations ask for in truth."""
+        movement, focus = copied[self.language.movement_word], copied[self.language.focus_word]
+        return Request(self.requests[movement].movement, self.requests[focus].focus)
+
+    def accuracy(self, model: ImitationModel) -> float:
+        """Share of all pairs of signs, each signed anew, that the model understands."""
+        means = [
+            Counter(self.requests[t].movement for t in movement.members).most_common(1)[0][0]
+            for movement in model.movements
+        ]
+        answers = [(request, model.respond(signs, objects)) for request, signs, objects in self.commands]
+        return float(np.mean([(means[a.movement], a.focus) == request for request, a in answers]))
+
+
+def ask_at_random(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.float64]) -> Question:
+    """Ask for any pair in any scene."""
+    request = lesson.language.requests[int(lesson.rng.integers(len(lesson.language.requests)))]
+    return Question(request, scenes[int(lesson.rng.integers(len(scenes)))])
+
+
+def ask_the_least_shown(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.float64]) -> Question:
+    """Ask for a pair that, in the model's eyes, was shown least, in any scene: a balanced design without doubt."""
+    shown = np.zeros((len(model.movements), scenes.shape[1]))
+    np.add.at(shown, (model.labels, model.focus), 1.0)
+    heard = np.unique(model.focus)
+    movement, at = np.unravel_index(int(shown[:, heard].argmin()), (len(shown), len(heard)))
+    word: WordOrder = model.word_order
+    copied = [0, 0]
+    copied[word.movement] = int(np.flatnonzero(model.labels == movement)[0])
+    copied[word.focus] = int(np.flatnonzero(model.focus == heard[at])[0])
+    return Question(lesson.meaning(copied), scenes[int(lesson.rng.integers(len(scenes)))])
+
+
+def ask_the_most_informative(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.float64]) -> Question:
+    """Ask what `ImitationModel.most_informative` says."""
+    query = model.most_informative(scenes)
+    return Question(lesson.meaning(query.copied), scenes[query.scene])
+
+
+STRATEGIES: dict[str, Ask] = {
+    "most informative": ask_the_most_informative,
+    "least shown": ask_the_least_shown,
+    "random": ask_at_random,
+}
+
+
+def run_lessons(cell: Cell, seed: int, people: People | None) -> Record:
+    """Let each strategy ask the same people, from the same first demonstrations."""
+    curves = {name: _curve(Lesson(cell, seed, people), ask) for name, ask in STRATEGIES.items()}
+    first = max(cell.movements, cell.objects)
+    return {"cell": cell.name, "seed": seed, "first": first, "curves": curves}
+
+
+def _curve(lesson: Lesson, ask: Ask) -> list[float]:
+    """Accuracy after each demonstration, from the first ones on."""
+    found = []
+    last = min(ASKED, 2 * len(lesson.language.requests))
+    while True:
+        model = learn(DemonstrationSet(lesson.demonstrations), policy="knn")
+        found.append(round(lesson.accuracy(model), 4))
+        if len(lesson.demonstrations) >= last:
+            return found
+        lesson.show(ask(lesson, model, lesson.scenes(SCENES)))

@@ -1,0 +1,139 @@
+"""People who had no part in it: the constants of the evidence, measured without them, and how they are understood.
+
+The constants in `signimit.learners.joint.distance_model` were measured on all people at hand. Here every person is
+left out once: the constants are measured anew on the others, and sessions of those left out are learned with both.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import reduce
+from operator import add
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.benchmark.studies.cells import Cell, People, StudySession, compose_session
+from signimit.benchmark.studies.methods import Answer
+from signimit.benchmark.studies.scoring import judge
+from signimit.learners.joint.distance_model import DRAWINGS, SIGNS, DistanceModel
+from signimit.learners.joint.learner import JointLearner, measure_distances
+from signimit.strokes import StrokeLibrary
+
+MEASURED = (
+    Cell(movements=5, objects=4, repetitions=1, people="real"),
+    Cell(movements=3, objects=3, repetitions=2, people="real", condition="mixed"),
+)
+TESTED = tuple(
+    Cell(movements=m, objects=o, repetitions=r, people="real") for m, o, r in ((3, 3, 2), (5, 4, 1), (7, 3, 1))
+)
+_MEASURING = 10  # sessions of each cell that constants are measured on
+_LEAST_SPREAD = 0.1
+
+
+class FoldRow(NamedTuple):
+    """One cell of sessions of people left out.
+
+    Attributes:
+        mover: Who was left out of those who move; a share of the signers is left out beside.
+        cell: Kind of sessions.
+        sessions: How many.
+        right_without: Of them with every inference right, constants measured without these people.
+        right_shipped: The same with the constants that the package has.
+        drawings_mean: Typical log distance of equal drawings, measured without these people.
+        drawings_spread: Standard deviation about it.
+        signs_mean: Typical log distance of equal signs.
+        signs_spread: Standard deviation about it.
+    """
+
+    mover: str
+    cell: str
+    sessions: int
+    right_without: int
+    right_shipped: int
+    drawings_mean: float
+    drawings_spread: float
+    signs_mean: float
+    signs_spread: float
+
+
+def leave_people_out(people: People, sessions: int) -> Iterator[FoldRow]:
+    """Leave each mover out once, each time with another share of the signers; yields a row for each cell."""
+    movers, signers = (sorted(set(library.writers)) for library in (people.movements, people.signs))
+    for number, mover in enumerate(movers):
+        out = set(signers[number :: len(movers)])
+        others = People(_of(people.signs, set(signers) - out), _of(people.movements, set(movers) - {mover}))
+        learner = measured_learner(others)
+        absent = People(_of(people.signs, out), _of(people.movements, {mover}))
+        for cell in TESTED:
+            composed = [compose_session(cell, seed, absent) for seed in range(sessions)]
+            without, shipped = (_right(composed, chosen) for chosen in (learner, JointLearner()))
+            yield FoldRow(mover, cell.name, sessions, without, shipped, *_constants(learner))
+
+
+def measured_learner(people: People) -> JointLearner:
+    """Measure the means and spreads of the evidence on sessions of these people; shares and prices stay."""
+    drawings, signs = [], []
+    for cell in MEASURED:
+        for seed in range(_MEASURING):
+            session = compose_session(cell, seed, people)
+            drawn, said = _equals_and_others(session)
+            drawings.append(drawn)
+            signs.append(said)
+    return JointLearner(_fitted(DRAWINGS, drawings), _fitted(SIGNS, signs))
+
+
+Split = tuple[NDArray[np.float64], NDArray[np.float64]]  # log distances of equals, and of others
+
+
+def _equals_and_others(session: StudySession) -> tuple[Split, Split]:
+    seen, truth, language = measure_distances(session.demonstrations), session.truth, session.truth.language
+    t, k = np.triu_indices(len(session.demonstrations), 1)
+    one_movement, one_focus = truth.movement[t] == truth.movement[k], truth.focus[t] == truth.focus[k]
+    drawn = np.log(seen.drawings[t, k, truth.focus[t], truth.focus[k]])
+    named, asked = (np.log(seen.signs[word][t, k]) for word in (language.focus_word, language.movement_word))
+    equal = np.concatenate([named[one_focus], asked[one_movement]])
+    other = np.concatenate([named[~one_focus], asked[~one_movement]])
+    return (drawn[one_movement], drawn[~one_movement]), (equal, other)
+
+
+def _fitted(model: DistanceModel, sessions: Sequence[Split]) -> DistanceModel:
+    """Replace means and spreads by those of sessions; medians, for some of the others are akin and some equals odd."""
+    typical = np.array([np.median(equal) for equal, _ in sessions])
+    about = np.concatenate([equal - middle for (equal, _), middle in zip(sessions, typical, strict=True)])
+    others = np.concatenate([other for _, other in sessions])
+    return replace(
+        model,
+        equal_mean=float(typical.mean()),
+        equal_mean_spread=max(float(typical.std(ddof=1)), _LEAST_SPREAD),
+        equal_spread=_robust_spread(about),
+        other_mean=float(np.median(others)),
+        other_spread=_robust_spread(others),
+    )
+
+
+def _robust_spread(values: NDArray[np.float64]) -> float:
+    """Standard deviation of a normal distribution with the same median deviation."""
+    return max(1.4826 * float(np.median(np.abs(values - np.median(values)))), _LEAST_SPREAD)
+
+
+def _right(sessions: Sequence[StudySession], learner: JointLearner) -> int:
+    count = 0
+    for session in sessions:
+        found = learner.infer(session.demonstrations, None, np.random.default_rng(0))
+        count += judge(Answer(found.labels, found.focus, found.word_order), session.truth).all
+    return count
+
+
+def _constants(learner: JointLearner) -> tuple[float, float, float, float]:
+    models = (learner.drawings, learner.signs)
+    mean, spread, mean_of_signs, spread_of_signs = (
+        round(value, 3) for model in models for value in (model.equal_mean, model.equal_spread)
+    )
+    return mean, spread, mean_of_signs, spread_of_signs
+
+
+def _of(library: StrokeLibrary, writers: set[str]) -> StrokeLibrary:
+    return reduce(add, (library.select(writer=writer) for writer in sorted(writers)))

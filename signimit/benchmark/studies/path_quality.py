@@ -1,0 +1,124 @@
+"""How well a policy draws what was shown: the measures of the study of all kinds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from signimit.evaluation import TOLERANCE, make_template, movement_error, settled_part
+from signimit.policies.base import CONTROL_PERIOD, Array, Policy, StatefulPolicy
+from signimit.signs import resampled_path
+
+REACHED = 0.15  # half sizes from the drawing at which a detour ends
+FAR = 0.5  # half sizes from the drawing that a detour begins at, at least
+BACK = 0.25  # half sizes from the nearest drawn loop within which a shoved hand is back
+CORNER_POINTS = 10  # farthest-out of 200 points of a loop
+
+
+class PathQuality(NamedTuple):
+    """One hand's path, judged; NaN where a measure does not apply.
+
+    Attributes:
+        misfit: Path error of `signimit.evaluation`, in half sizes.
+        corner_gap: Mean gap from the first loop's farthest-out points to the settled path, in half sizes.
+        detour: Way travelled to the drawing over the straight way.
+        speed_correlation: Between the hand's speed and the demonstrators' at the same places.
+        speed_ratio: The hand's mean speed over the demonstrators' at the same places.
+    """
+
+    misfit: float
+    corner_gap: float
+    detour: float
+    speed_correlation: float
+    speed_ratio: float
+
+    @property
+    def draws(self) -> bool:
+        """Whether the path counts as the movement."""
+        return self.misfit <= TOLERANCE
+
+
+def move_hands(policy: Policy, hands: Array, seconds: float, shove: Array | None = None) -> Array:
+    """Move hands as the policy says, shape (n + 1, B, 2), m.
+
+    Args:
+        policy: Any kind; one with a state keeps it.
+        hands: Where they start, shape (B, 2), m.
+        seconds: How long.
+        shove: What is added to each hand half way, shape (B, 2), m.
+    """
+    steps = round(seconds / CONTROL_PERIOD)
+    path = np.empty((steps + 1, *hands.shape))
+    path[0] = hands
+    state = policy.start() if isinstance(policy, StatefulPolicy) else None
+    for t in range(steps):
+        if isinstance(policy, StatefulPolicy):
+            state, velocity = policy.step(state, path[t])
+        else:
+            velocity = policy(path[t])
+        path[t + 1] = path[t] + CONTROL_PERIOD * velocity
+        if shove is not None and t == steps // 2:
+            path[t + 1] += shove
+    return path
+
+
+def judge_path(path: Array, loops: Sequence[Array]) -> PathQuality:
+    """Judge one hand's path, shape (n, 2), by the loops that were shown, each (T, 2), all in the object's frame."""
+    tail = settled_part(path)
+    misfit = np.inf if tail is None else movement_error(tail, [make_template(loop) for loop in loops])
+    if misfit > TOLERANCE:
+        return PathQuality(misfit, np.nan, np.nan, np.nan, np.nan)
+    settled = path[len(path) // 3 :]
+    return PathQuality(misfit, corner_gap(settled, loops[0]), detour(path, loops[0]), *speed_agreement(settled, loops))
+
+
+def corner_gap(settled: Array, loop: Array) -> float:
+    """Return how far the path stays from the loop's farthest-out points, in half sizes."""
+    points = resampled_path(loop, 200)
+    corners = points[np.argsort(-np.hypot(*points.T))[:CORNER_POINTS]]
+    return float(_gaps(corners, settled).mean() / np.abs(loop).max())
+
+
+def detour(path: Array, loop: Array) -> float:
+    """Return the way to the loop over the straight way; NaN for a hand that began near it."""
+    half_size = float(np.abs(loop).max())
+    gaps = _gaps(path, resampled_path(loop, 200))
+    if gaps[0] <= FAR * half_size:
+        return float("nan")
+    reached = gaps < REACHED * half_size
+    arrival = int(reached.argmax()) if reached.any() else len(path) - 1
+    return float(np.hypot(*np.diff(path[: arrival + 1], axis=0).T).sum() / gaps[0])
+
+
+def speed_agreement(settled: Array, loops: Sequence[Array]) -> tuple[float, float]:
+    """Return correlation and ratio of the hand's speed and the demonstrators' mean speed at the same places."""
+    speed = np.hypot(*np.diff(settled, axis=0).T) / CONTROL_PERIOD
+    theirs = np.zeros(len(speed))
+    for loop in loops:
+        pace = np.hypot(*np.gradient(loop, CONTROL_PERIOD, axis=0).T)
+        theirs += pace[cKDTree(loop).query(settled[:-1])[1]] / len(loops)
+    if np.std(speed) == 0 or np.std(theirs) == 0:
+        return float("nan"), float(speed.mean() / theirs.mean())
+    return float(np.corrcoef(speed, theirs)[0, 1]), float(speed.mean() / theirs.mean())
+
+
+def back_after_shove(path: Array, loops: Sequence[Array]) -> Array:
+    """Return which hands, shoved half way, are on a drawn loop for the second after the next, shape (B,), 0 or 1."""
+    begin = (len(path) - 1) // 2 + round(1.0 / CONTROL_PERIOD)
+    window = path[begin : begin + round(1.0 / CONTROL_PERIOD)]
+    half_size = float(np.abs(loops[0]).max())
+    near = _gaps(window, np.concatenate(loops)) < BACK * half_size
+    return np.asarray(near.all(axis=0), dtype=np.float64)
+
+
+def _gaps(points: Array, drawing: Array) -> Array:
+    return np.asarray(cKDTree(drawing).query(points)[0], dtype=np.float64)
+
+
+def arrives_and_stays(path: Array, goal: Array, tolerance: float) -> Array:
+    """Return which hands are within ``tolerance`` metres of the goal for the last third, shape (B,), 0 or 1."""
+    gaps: Array = np.hypot(*np.moveaxis(path[2 * len(path) // 3 :] - goal, -1, 0))
+    return np.asarray((gaps < tolerance).all(axis=0), dtype=np.float64)

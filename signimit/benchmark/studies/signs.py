@@ -1,0 +1,106 @@
+"""Signs alone: how often the next one is read rightly after a few examples of each, by three distances."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.benchmark.studies.cells import CROWD, FILLER_SIGNS, SAMPLES, choose_person
+from signimit.inference import WordOrder
+from signimit.intervals import wilson_interval
+from signimit.learners.base import Understanding
+from signimit.learners.joint.sign_distance import VocabularyReader, sign_features
+from signimit.learners.paper import NearestSignReader
+from signimit.signs import SignSpace, normalised_sign, pairwise_dtw
+from signimit.strokes import StrokeLibrary
+from signimit.teaching.people import synthetic_library
+from signimit.teaching.stroke_sampler import StrokeSampler
+
+Points = Sequence[NDArray[np.float64]]
+
+
+class Quiz(NamedTuple):
+    """A kind of quiz.
+
+    Attributes:
+        signs: Which are to be told apart.
+        shown: Examples of each.
+        crowd: Whether each sign is another person's.
+    """
+
+    signs: tuple[str, ...]
+    shown: int
+    crowd: bool
+
+
+class SignRow(NamedTuple):
+    """How often a sign that was never shown was read rightly, with Wilson's 95 % interval."""
+
+    people: str
+    signs: str
+    shown: int
+    signers: str
+    method: str
+    asked: int
+    right: int
+    low: float
+    high: float
+
+
+DIGITS = tuple("0123456")
+QUIZZES = tuple(
+    Quiz(signs, shown, crowd)
+    for crowd in (False, True)
+    for signs, shown in ((DIGITS[1:4], 4), (DIGITS[4:7], 4), (DIGITS, 4), (DIGITS, 2))
+)
+METHODS = ("joint", "warping", "three prototypes")
+
+
+def run_quizzes(library: StrokeLibrary | None, quizzes: int) -> Iterator[SignRow]:
+    """Hold quizzes of each kind, among people at hand or, where there are none, synthetic ones; seeds are 0, 1, ...
+
+    Args:
+        library: Signs of real people.
+        quizzes: How many of each kind; in each, every sign is asked for once.
+    """
+    for kind in QUIZZES:
+        right = sum((_hold(kind, seed, library) for seed in range(quizzes)), np.zeros(len(METHODS), dtype=np.int64))
+        asked = quizzes * len(kind.signs)
+        for method, count in zip(METHODS, right.tolist(), strict=True):
+            interval = (round(share, 4) for share in wilson_interval(count, asked))
+            who, signers = ("real" if library else "synthetic"), ("many" if kind.crowd else "one")
+            yield SignRow(who, " ".join(kind.signs), kind.shown, signers, method, asked, count, *interval)
+
+
+def _hold(kind: Quiz, seed: int, library: StrokeLibrary | None) -> NDArray[np.int64]:
+    """Count right readings of each method, shape (3,)."""
+    rng = np.random.default_rng([seed, kind.shown, len(kind.signs)])
+    deck = StrokeSampler(_signers(kind, library, rng))
+    shown = [deck.draw(sign, rng)[0].points for sign in kind.signs for _ in range(kind.shown)]
+    asked = [deck.draw(sign, rng)[0].points for sign in kind.signs]
+    prototypes = [deck.draw(sign, rng)[0].points for sign in FILLER_SIGNS]
+    truth = np.arange(len(asked))
+    said = Understanding(np.repeat(truth, kind.shown), np.repeat(truth, kind.shown), WordOrder(0, 0), {})
+    ours = VocabularyReader((sign_features(shown),), said, len(truth))
+    space = SignSpace(prototypes)
+    papers = NearestSignReader(space, space.embed_all(shown)[:, None], said, len(truth))
+    readings = [[int(reader.read([sign]).focus.argmax()) for sign in asked] for reader in (ours, papers)]
+    answers = (readings[0], _nearest_by_warping(shown, asked) // kind.shown, readings[1])
+    return np.array([(np.asarray(answer) == truth).sum() for answer in answers])
+
+
+def _nearest_by_warping(shown: Points, asked: Points) -> NDArray[np.intp]:
+    """Return the number of the example that is nearest by dynamic time warping, shape (len(asked),)."""
+    known, heard = (np.stack([normalised_sign(sign) for sign in signs]) for signs in (shown, asked))
+    return np.asarray(pairwise_dtw(heard, known).argmin(axis=1))
+
+
+def _signers(kind: Quiz, library: StrokeLibrary | None, rng: np.random.Generator) -> StrokeLibrary:
+    labels = (*kind.signs, *FILLER_SIGNS)
+    if library is None:
+        writers = CROWD if kind.crowd else 1
+        return synthetic_library(labels, writers=writers, samples=SAMPLES // writers, rng=rng)
+    return library if kind.crowd else choose_person(library, labels, rng, kind.shown + 1)

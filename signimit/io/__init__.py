@@ -1,0 +1,1 @@
+"""Files: archives, safe writing, and formats that others use."""

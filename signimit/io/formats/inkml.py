@@ -1,0 +1,170 @@
+"""W3C InkML, the Ink Markup Language (Recommendation of 20 September 2011, https://www.w3.org/TR/InkML)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.exceptions import FileFormatError
+from signimit.io.formats.recording import Recording, library_from_recordings
+from signimit.io.formats.textfile import local_name, read_xml
+from signimit.strokes import StrokeLibrary
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+LABEL_TYPES = ("label", "truth")
+TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6}
+_ID = "{http://www.w3.org/XML/1998/namespace}id"
+
+
+class TraceFormat(NamedTuple):
+    """Which number of a point is what.
+
+    Attributes:
+        x: Column of X.
+        y: Column of Y.
+        t: Column of T; none without time stamps.
+        channels: How many numbers a point has at most.
+        up: 1 if Y grows upwards, -1 if downwards.
+        seconds: Seconds in a unit of T.
+    """
+
+    x: int = 0
+    y: int = 1
+    t: int | None = None
+    channels: int = 2
+    up: float = -1.0
+    seconds: float = TIME_UNITS["ms"]
+
+
+def read_inkml(path: str | os.PathLike[str]) -> StrokeLibrary:
+    """Read traces with channels X, Y and perhaps T.
+
+    Each trace group that holds traces, or views of traces, is one drawing; without groups all traces of the file are.
+    The label is the nearest ``<annotation type="label">`` or ``"truth"``, else the file's name; the writer the nearest
+    ``"writer"``. Y grows downwards, as the standard has it, unless its channel says ``orientation="-ve"``. T is in
+    milliseconds unless the channel says otherwise; without T points are taken to be 10 ms apart. Pen-up traces are
+    left out.
+
+    Raises:
+        FileNotFoundError: If there is no such file.
+        FileFormatError: Names the file, the trace, and what was expected there; also for difference-encoded values and
+            for several trace formats, which are not understood.
+        MissingDependencyError: If defusedxml is not installed.
+    """
+    where = os.fspath(path)
+    root = read_xml(path)
+    if local_name(root) != "ink":
+        raise FileFormatError(where, "an ink element", f"{local_name(root)!r}")
+    layout = _trace_format(root, where)
+    traces = {_identity(e): e for e in root.iter() if local_name(e) == "trace"}
+    recordings = []
+    for number, drawing in enumerate(_drawings(root)):
+        place = f"{where}: drawing {number}"
+        points = [_read_trace(trace, layout, place) for trace in _traces_of(drawing.element, traces, place)]
+        pieces = [np.column_stack([p[:, layout.x], p[:, layout.y] * layout.up]) for p in points]
+        stamps = None if layout.t is None else [p[:, layout.t] * layout.seconds for p in points]
+        label = drawing.label or Path(where).stem
+        recordings.append(Recording(pieces, stamps, label, drawing.writer or "unknown", place))
+    return library_from_recordings(recordings, f"InkML {os.path.basename(where)}")
+
+
+class _Drawing(NamedTuple):
+    """An element that holds traces, and what it or the nearest element around it is annotated with."""
+
+    element: Element
+    label: str | None
+    writer: str | None
+
+
+def _drawings(root: Element) -> list[_Drawing]:
+    """Return the elements that are one drawing each, in the order of the file."""
+    whole = _Drawing(root, _annotation(root, LABEL_TYPES), _annotation(root, ("writer",)))
+    found, waiting = [], [whole]
+    while waiting:
+        drawing = waiting.pop()
+        kinds = [local_name(child) for child in drawing.element]
+        if drawing is not whole and ("trace" in kinds or "traceView" in kinds):
+            found.append(drawing)
+        groups = [child for child, kind in zip(drawing.element, kinds, strict=True) if kind == "traceGroup"]
+        for group in reversed(groups):
+            label, writer = _annotation(group, LABEL_TYPES), _annotation(group, ("writer",))
+            waiting.append(_Drawing(group, label or drawing.label, writer or drawing.writer))
+    return found or [whole]
+
+
+def _traces_of(element: Element, traces: dict[str, Element], place: str) -> list[Element]:
+    """Return the pen-down traces of a drawing; those it refers to are taken out of ``traces``.
+
+    So a small file cannot refer to one large trace a million times.
+    """
+    members = []
+    for child in element if local_name(element) == "traceGroup" else element.iter():
+        if local_name(child) == "traceView" and local_name(element) == "traceGroup":
+            name = child.get("traceDataRef", "").lstrip("#")
+            if name not in traces:
+                raise FileFormatError(place, "a traceView of a trace in this file, viewed once", repr(name))
+            members.append(traces.pop(name))
+        elif local_name(child) == "trace":
+            members.append(child)
+    return [trace for trace in members if trace.get("type", "penDown") != "penUp"]
+
+
+def _identity(element: Element) -> str:
+    return element.get(_ID) or element.get("id") or f"#{id(element)}"
+
+
+def _annotation(element: Element, types: Sequence[str]) -> str | None:
+    """Return the text of an element's first annotation of one of these types."""
+    for child in element:
+        if local_name(child) == "annotation" and child.get("type", "").lower() in types and child.text:
+            return child.text.strip() or None
+    return None
+
+
+def _trace_format(root: Element, where: str) -> TraceFormat:
+    """Read the document's only trace format, or return the standard's own: X and Y."""
+    formats = [e for e in root.iter() if local_name(e) == "traceFormat"]
+    layouts = {_layout(element, where) for element in formats}
+    if len(layouts) > 1:
+        raise FileFormatError(where, "one trace format", f"{len(layouts)} different ones")
+    return layouts.pop() if layouts else TraceFormat()
+
+
+def _layout(element: Element, where: str) -> TraceFormat:
+    channels = {
+        c.get("name", ""): (i, c) for i, c in enumerate(e for e in element.iter() if local_name(e) == "channel")
+    }
+    if not {"X", "Y"} <= set(channels):
+        raise FileFormatError(where, "channels X and Y", ", ".join(channels) or "none")
+    (x, _), (y, vertical) = channels["X"], channels["Y"]
+    time, clock = channels.get("T", (None, None))
+    unit = "ms" if clock is None else clock.get("units", "ms")
+    if unit not in TIME_UNITS:
+        raise FileFormatError(where, f"channel T in {', '.join(TIME_UNITS)}", repr(unit))
+    up = 1.0 if vertical.get("orientation") == "-ve" else -1.0
+    return TraceFormat(x, y, time, len(channels), up, TIME_UNITS[unit])
+
+
+def _read_trace(trace: Element, layout: TraceFormat, place: str) -> NDArray[np.float64]:
+    """Return the numbers of a trace, shape (T, channels); missing intermittent channels are 0."""
+    needed = 1 + max(layout.x, layout.y, layout.t or 0)
+    rows = []
+    for number, point in enumerate((trace.text or "").split(",")):
+        words = point.split()
+        try:
+            if not needed <= len(words) <= layout.channels:
+                raise ValueError
+            rows.append([float(word.removeprefix("!")) for word in words] + [0.0] * (layout.channels - len(words)))
+        except ValueError:
+            if not words and number == 0:
+                break
+            expected = f"{needed} plain numbers (differences, wildcards and hexadecimals are not understood)"
+            raise FileFormatError(f"{place}: point {number}", expected, repr(point.strip()[:60])) from None
+    return np.array(rows, dtype=np.float64).reshape(-1, layout.channels)

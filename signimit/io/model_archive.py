@@ -1,0 +1,114 @@
+"""Model files: what an imitator has seen and understood, in one ``.npz`` archive without pickles."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
+from signimit.inference import WordOrder
+from signimit.io.archive import read_archive, write_archive
+from signimit.learners import get_learner
+from signimit.learners.base import Understanding
+from signimit.policies import POLICY_KINDS
+from signimit.signs import prototype_points
+from signimit.strokes import cut, flatten
+from signimit.validation import float_array, whole_numbers
+
+KIND, VERSION = "imitation model", 1
+
+
+class ModelParts(NamedTuple):
+    """All that a model file holds; `signimit.ImitationModel` has the same."""
+
+    demonstrations: DemonstrationSet
+    understanding: Understanding
+    method: str
+    policy_kind: str
+    prototypes: tuple[NDArray[np.float64], ...] | None
+
+
+def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
+    """Write a model file, whole or not at all."""
+    known = parts.understanding
+    arrays = {f"demonstrations__{k}": v for k, v in parts.demonstrations.to_arrays().items()}
+    arrays |= {f"diagnostics__{k}": v for k, v in known.diagnostics.items()}
+    arrays |= {"labels": known.labels, "focus": known.focus, "word_order": np.array(known.word_order)}
+    if parts.prototypes is not None:
+        points, _, offsets = flatten([(p, np.zeros(len(p))) for p in parts.prototypes])
+        arrays |= {"prototypes": points, "prototype_offsets": offsets}
+    write_archive(path, KIND, VERSION, arrays, {"method": parts.method, "policy": parts.policy_kind})
+
+
+def read_model(path: str | os.PathLike[str]) -> ModelParts:
+    """Read what `write_model` wrote.
+
+    Raises:
+        FileFormatError: If the file is not a whole, sane model.
+    """
+    arrays, meta = read_archive(path, KIND, VERSION)
+    where = os.fspath(path)
+    demos = DemonstrationSet.from_arrays(_part(arrays, "demonstrations__"), where)
+    try:
+        method, kind = str(meta["method"]), str(meta["policy"])
+        learner = get_learner(method)
+        check_policy_kind(kind)
+        understanding = _checked_understanding(arrays, demos)
+        prototypes = None
+        if "prototypes" in arrays:
+            prototypes = prototype_points(cut(arrays["prototypes"], "prototypes", arrays["prototype_offsets"]))
+        learner.reader(demos, prototypes, understanding)  # what a reader lacks is a fault of the file, to be told now
+    except KeyError as error:
+        raise FileFormatError(where, f"an entry {error}", "none") from None
+    except InvalidInputError as error:
+        raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
+    except UnknownNameError as error:
+        raise FileFormatError(where, f"a known {error.what}", repr(error.name)) from None
+    return ModelParts(demos, understanding, method, kind, prototypes)
+
+
+def check_policy_kind(kind: str) -> None:
+    """Refuse a kind of policy that there is not.
+
+    Raises:
+        UnknownNameError: If so.
+    """
+    if kind not in POLICY_KINDS:
+        raise UnknownNameError("policy kind", kind, POLICY_KINDS)
+
+
+def frozen(understanding: Understanding) -> Understanding:
+    """Make the arrays read-only."""
+    for array in (understanding.labels, understanding.focus, *understanding.diagnostics.values()):
+        array.setflags(write=False)
+    return understanding
+
+
+def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
+    return {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
+
+
+def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet) -> Understanding:
+    count, frames, words = len(demos), demos.objects.shape[1], len(demos[0].signs)
+    labels = _indices(arrays["labels"], "labels", (count,), count)
+    if len(np.unique(labels)) != labels.max() + 1:
+        raise InvalidInputError("labels", "movements numbered without gaps", f"{labels[:8].tolist()}")
+    focus = _indices(arrays["focus"], "focus", (count,), frames)
+    order = _indices(arrays["word_order"], "word order", (2,), words)
+    diagnostics = _part(arrays, "diagnostics__")
+    shapes = {"focus_probability": (count, frames), "movement_probability": (count, int(labels.max()) + 2)}
+    shapes["word_order_evidence"] = (words, words)
+    for name in shapes.keys() & diagnostics.keys():
+        float_array(diagnostics[name], name.replace("_", " "), shapes[name])
+    return frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), diagnostics))
+
+
+def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:
+    array = whole_numbers(value, where, shape)
+    if (array < 0).any() or (array >= count).any():
+        raise InvalidInputError(where, f"whole numbers from 0 to {count - 1}", f"{array[:8].tolist()}")
+    return array

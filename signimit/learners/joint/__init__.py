@@ -1,0 +1,1 @@
+"""The default learner: movements, foci, word order and sign meanings inferred together."""

@@ -1,0 +1,1 @@
+"""The path that the demonstrations of one movement share."""

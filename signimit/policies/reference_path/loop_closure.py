@@ -1,0 +1,118 @@
+"""The seam of a movement that repeats: where one round ends and the next begins.
+
+A drawn round does not close: the stroke runs past its beginning, or stops short of it, and the hand jumps over to the
+next round. Nobody means that jump, but everybody makes it at the same place, so a mean of rounds has it too: a notch
+in a circle, a second tip beside a triangle's. It is known by turning that is undone at once, left and right
+again; a corner, however sharp, turns one way only.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from signimit.policies.base import Array
+
+AROUND = 1.0  # half sizes from the first node, which is where the model's drawing ended
+LONGEST = 1.0  # half sizes that a jump may take, along the course
+LENGTH_COST = 0.7  # rad of needless turning that a half size of replaced course must spare
+LEAST_GAIN = 1.0  # rad of needless turning; less is left as drawn
+SIDE = 0.15  # half sizes before and after, from which the directions there are taken
+CORNER = 0.8  # rad; turning across the seam by so much more than a circle of the movement's size would is a corner
+LONGEST_LEG = 2.0  # widths of the gap; sides that meet further out do not meet in a corner
+
+
+class _Jump(NamedTuple):
+    """The part of a course to replace: first and last node (counted round and round), and directions there, rad."""
+
+    begin: int
+    end: int
+    entering: float
+    leaving: float
+
+
+def close_loop(points: Array, speeds: Array, scale: float) -> tuple[Array, Array]:
+    """Replace the jump between two rounds: by a corner where the sides make one, by a smooth piece elsewhere.
+
+    The mended piece is drawn no faster than what lies before and after it.
+
+    Args:
+        points: Nodes of a closed course at about equal steps of length, shape (M, 2), m; the seam is near the first.
+        speeds: Speed from each node to the next, shape (M,), m/s.
+        scale: Half size of the movement, m.
+
+    Returns:
+        The same for the mended course; unchanged if there is no jump.
+    """
+    step = max(float(np.hypot(*np.diff(points, axis=0).T).mean()), 1e-6 * scale)
+    jump = _find_jump(points, step, scale)
+    if jump is None:
+        return points, speeds
+    nodes = len(points)
+    piece = _bridge(points[jump.begin % nodes], points[jump.end % nodes], jump, step, scale)
+    pace = _calm(speeds[np.arange(jump.begin, jump.end + 1) % nodes], len(piece))
+    rest = np.arange(jump.end + 1, jump.begin + nodes) % nodes
+    return np.concatenate([piece, points[rest]]), np.concatenate([pace, speeds[rest]])
+
+
+def _find_jump(points: Array, step: float, scale: float) -> _Jump | None:
+    """Return the part near the seam whose replacement by a straight line spares most turning for its length."""
+    nodes = len(points)
+    reach = int(min(AROUND * scale / step, nodes // 4))
+    side = max(round(min(SIDE * scale / step, nodes // 8)), 1)
+    near = points[np.arange(-reach - side, reach + side + 1) % nodes]
+    inner = near[side:-side]
+    entering, leaving = _angle(inner - near[: -2 * side]), _angle(near[2 * side :] - inner)
+    chords = _angle(inner[None] - inner[:, None])  # (i, j)
+    needed = _between(entering[:, None], chords) + _between(chords, leaving[None])
+    headings = _angle(np.diff(near, axis=0))
+    turned = np.concatenate([[0.0, 0.0], np.cumsum(_between(headings[:-1], headings[1:]))])
+    drawn = turned[None, side + 1 : side + 1 + len(inner)] - turned[side:-side, None]  # at nodes i to j
+    length = np.arange(len(inner)) - np.arange(len(inner))[:, None]
+    gain = drawn - needed - LENGTH_COST * step / scale * length
+    gain[(length < 1) | (length * step > LONGEST * scale)] = -np.inf
+    i, j = np.unravel_index(int(gain.argmax()), gain.shape)
+    if gain[i, j] < LEAST_GAIN:
+        return None
+    return _Jump(int(i) - reach, int(j) - reach, float(entering[i]), float(leaving[j]))
+
+
+def _bridge(a: Array, b: Array, jump: _Jump, step: float, scale: float) -> Array:
+    """Return points from a to b: both sides prolonged until they meet, or a smooth piece, or a straight one."""
+    u, v = (np.array([np.cos(angle), np.sin(angle)]) for angle in (jump.entering, jump.leaving))
+    chord = float(np.hypot(*(b - a)))
+    turn = float(_between(np.array(jump.entering), np.array(jump.leaving)))
+    if turn <= CORNER + chord / scale:
+        q = np.linspace(0.0, 1.0, max(round(chord / step), 1) + 1)[:, None]
+        straight = a + (b - a) * (3 * q**2 - 2 * q**3)
+        smooth: Array = straight + chord * ((q**3 - 2 * q**2 + q) * u + (q**3 - q**2) * v)  # cubic Hermite
+        return smooth
+    legs = np.array([_cross(b - a, v), _cross(u, b - a)]) / max(abs(_cross(u, v)), 1e-9) * np.sign(_cross(u, v))
+    if legs.min() < 0 or legs.max() > LONGEST_LEG * chord:
+        return np.linspace(a, b, max(round(chord / step), 1) + 1)
+    first, second = (max(round(leg / step), 1) for leg in legs)
+    corner = a + legs[0] * u
+    return np.concatenate([np.linspace(a, corner, first, endpoint=False), np.linspace(corner, b, second + 1)])
+
+
+def _calm(speeds: Array, count: int) -> Array:
+    """Resample speeds, but none above the straight line from the first to the last: a jump is faster than a drawing."""
+    shown = np.interp(np.linspace(0.0, 1.0, count), np.linspace(0.0, 1.0, len(speeds)), speeds)
+    calm: Array = np.minimum(shown, np.linspace(speeds[0], speeds[-1], count))
+    return calm
+
+
+def _angle(vectors: Array) -> Array:
+    angles: Array = np.arctan2(vectors[..., 1], vectors[..., 0])
+    return angles
+
+
+def _between(a: Array, b: Array) -> Array:
+    """Return the angle between two directions, in [0, pi]."""
+    difference: Array = np.abs((b - a + np.pi) % (2 * np.pi) - np.pi)
+    return difference
+
+
+def _cross(a: Array, b: Array) -> float:
+    return float(a[0] * b[1] - a[1] * b[0])

@@ -1,0 +1,143 @@
+"""What a movement is, apart from how one gets to it: the course that all its demonstrations share.
+
+Nothing here assumes a circle, a period or that the movement does not cross itself. Candidate courses are taken from
+the demonstrations: what lies between a demonstration's end and each earlier moment at which it came by that place
+(closed), and the demonstration as a whole (open). The candidate that tells most about all demonstrations with the
+fewest nodes is kept and refined by barycentre averaging.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from signimit.paths import SpacedPath, arc_lengths, space_course, space_path
+from signimit.policies.base import Array
+from signimit.policies.reference_path.alignment import PhaseAlignment, align_phases
+from signimit.policies.reference_path.averaging import MeanPass, cut_passes, mean_pass
+from signimit.policies.reference_path.loop_closure import close_loop
+from signimit.strokes import Stroke
+
+COARSE, FINE = 110, 360  # points of a typical demonstration, to choose a course and to refine it
+LONGEST = 4  # typical lengths; what is longer is sampled more coarsely
+MOST_MODELS = 8  # demonstrations that candidate courses are taken from
+MOST_CHOSEN_BY = 12  # demonstrations that choose among them
+MOST_REFINED_BY = 40  # demonstrations averaged; more add time, not accuracy
+NODE_COST = 0.25  # of a node, in the unit of a point's cost: a longer course must pay for itself
+INLIERS = 0.8  # of the demonstrations choose the course: a wrong member has no say
+FEWEST_ROUNDS = 1.3  # the typical demonstration of a repeating movement goes round at least so often
+REFINEMENTS = 3
+SHORTEST_PASS = 0.15  # of a round; less is the end of a stroke, not another round
+FEWEST_NODES = 5  # of the way to a goal that everybody reaches from another side
+
+
+class ReferencePath(NamedTuple):
+    """The part of a movement that its demonstrations share.
+
+    Attributes:
+        points: Nodes at equal steps of length, shape (M, 2), m.
+        speeds: Mean speed from each node to the next, shape (M,), m/s; zero where nobody showed it.
+        closed: Whether the movement goes round and round, or ends at the last node.
+        scale: Half size of the movement, m.
+        reach_speed: Mean speed of the demonstrators on their way to the course, m/s.
+    """
+
+    points: Array
+    speeds: Array
+    closed: bool
+    scale: float
+    reach_speed: float
+
+
+def learn_reference_path(demonstrations: Sequence[Stroke]) -> ReferencePath:
+    """Find the shared course of demonstrations of one movement."""
+    length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
+    coarse = [space_path(d, length / COARSE, LONGEST * COARSE).points for d in _spread(demonstrations, MOST_CHOSEN_BY)]
+    scale = float(np.median([_half_size(path) for path in coarse]))
+    points, closed = _choose_course(coarse, scale)
+    return _refine_course(_spread(demonstrations, MOST_REFINED_BY), points, closed, scale)
+
+
+def _spread(demonstrations: Sequence[Stroke], most: int) -> list[Stroke]:
+    """Return at most so many demonstrations, evenly spread over all."""
+    count = len(demonstrations)
+    return [demonstrations[i * count // min(most, count)] for i in range(min(most, count))]
+
+
+def _half_size(path: Array) -> float:
+    """Return the root mean square distance of the path's later half from its centre, m."""
+    late = path[len(path) // 2 :]
+    return float(np.sqrt(((late - late.mean(axis=0)) ** 2).sum(axis=1).mean()))
+
+
+def _candidates(path: Array, scale: float) -> Iterator[tuple[Array, bool]]:
+    """Yield possible courses: the rounds that a path's end may close, and the whole path as an open course."""
+    gaps = np.hypot(*(path - path[-1]).T)
+    for i in range(1, len(path) - 8):
+        if gaps[i] <= gaps[i - 1] and gaps[i] < gaps[i + 1] and gaps[i] < scale:
+            yield path[i:-1], True
+    yield path, False
+
+
+def _choose_course(paths: Sequence[Array], scale: float) -> tuple[Array, bool]:
+    """Return the nodes of the cheapest candidate, and whether it is closed."""
+    best, choice = np.inf, (paths[0], False)
+    for path in paths[:MOST_MODELS]:
+        for points, closed in _candidates(path, scale):
+            alignments = align_phases(paths, points, closed, scale)
+            if closed and np.median([_rounds(a.phases, len(points)) for a in alignments]) < FEWEST_ROUNDS:
+                continue
+            costs = np.sort([a.cost for a in alignments])[: int(np.ceil(INLIERS * len(paths)))]
+            total = float(costs.mean()) + NODE_COST * len(points)
+            if total < best:
+                best, choice = total, (points, closed)
+    return choice
+
+
+def _rounds(phases: NDArray[np.int64], nodes: int) -> float:
+    drawn = phases[phases >= 0]
+    return float(drawn[-1] - drawn[0]) / nodes
+
+
+def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool, scale: float) -> ReferencePath:
+    """Align, average, and begin again with the average."""
+    length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
+    spacing = length / FINE
+    paths = [space_path(d, spacing, LONGEST * FINE) for d in demonstrations]
+    mean = MeanPass(points, points[:, 0], points[:, 0])
+    alignments: list[PhaseAlignment] = []
+    for _ in range(REFINEMENTS):
+        nodes = space_course(mean.points, spacing, closed, LONGEST * FINE)
+        alignments = align_phases([p.points for p in paths], nodes, closed, scale)
+        shortest = SHORTEST_PASS if closed else 0.0
+        passes = [
+            one
+            for path, alignment in zip(paths, alignments, strict=True)
+            for one in cut_passes(path, alignment.phases, len(nodes), shortest)
+        ]
+        mean = _shared_part(mean_pass(passes), 0.0 if closed else 0.5 * len(paths))
+    line, speeds = close_loop(mean.points, mean.speeds, scale) if closed else (mean.points, mean.speeds)
+    return ReferencePath(line, speeds, closed, scale, _reach_speed(paths, alignments))
+
+
+def _shared_part(mean: MeanPass, fewest: float) -> MeanPass:
+    """Drop nodes that nobody passed, and the beginning that fewer than so many did: the reach of the model."""
+    passed = np.flatnonzero(mean.support > 0)
+    begin = int(np.argmax(mean.support[passed] >= fewest))
+    if mean.support[passed[begin]] < fewest:
+        begin = len(passed)
+    kept = passed[min(begin, max(len(passed) - FEWEST_NODES, 0)) :]
+    return MeanPass(*(values[kept] for values in mean))
+
+
+def _reach_speed(paths: Sequence[SpacedPath], alignments: Sequence[PhaseAlignment]) -> float:
+    """Return the mean speed before the drawing begins, m/s; that of everything if nobody had far to go."""
+    begins = [int(np.argmax(a.phases >= 0)) for a in alignments]
+    way = sum(arc_lengths(p.points)[i] for p, i in zip(paths, begins, strict=True))
+    if sum(begins) < len(paths) * FINE // 50:
+        begins = [len(p.points) - 1 for p in paths]
+        way = sum(arc_lengths(p.points)[-1] for p in paths)
+    return float(way / sum(p.times[i] - p.times[0] for p, i in zip(paths, begins, strict=True)))

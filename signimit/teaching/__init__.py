@@ -1,0 +1,1 @@
+"""Lessons: languages, scenes, people and what they do. Nothing that learns imports this package."""

@@ -1,0 +1,69 @@
+"""Lessons: who asks well understands sooner, and what is asked is answered truthfully."""
+
+import numpy as np
+import pytest
+
+from signimit.benchmark.studies.asking import STRATEGIES, Lesson, Question, run_lessons
+from signimit.benchmark.studies.cells import Cell
+from signimit.benchmark.studies.tables import LessonRow, demonstrations_needed, tabulate_lessons
+from signimit.demonstrations import DemonstrationSet
+from signimit.learning import learn
+from signimit.teaching.languages import Request
+
+CELL = Cell(movements=3, objects=2, repetitions=1)
+
+
+def test_a_lesson_begins_with_every_sign_once() -> None:
+    lesson = Lesson(Cell(movements=5, objects=3, repetitions=1), 4, None)
+    assert len(lesson.requests) == 5
+    assert {r.movement for r in lesson.requests} == set(range(5))
+    assert {r.focus for r in lesson.requests} == set(range(3))
+
+
+@pytest.mark.parametrize("name", STRATEGIES)
+def test_every_strategy_asks_for_something_that_can_be_shown(name: str) -> None:
+    lesson = Lesson(CELL, 1, None)
+    model = learn(DemonstrationSet(lesson.demonstrations), policy="knn")
+    scenes = lesson.scenes(3)
+    question = STRATEGIES[name](lesson, model, scenes)
+    assert question.request in lesson.language.requests
+    assert any(np.array_equal(question.objects, scene) for scene in scenes)
+    lesson.show(question)
+    assert lesson.requests[-1] == question.request
+    assert len(lesson.demonstrations) == 4
+
+
+def test_copied_signs_mean_what_they_meant_whatever_the_word_order() -> None:
+    for seed in (0, 1):
+        lesson = Lesson(CELL, seed, None)
+        lesson.requests[:2] = [Request(0, 1), Request(2, 0)]
+        copied = [0, 0]
+        copied[lesson.language.movement_word] = 1
+        assert lesson.meaning(copied) == Request(2, 1)
+
+
+def test_a_model_of_every_pair_understands_what_it_is_asked() -> None:
+    lesson = Lesson(CELL, 3, None)
+    for request in lesson.language.requests * 2:
+        lesson.show(Question(request, lesson.scenes(1)[0]))
+    assert lesson.accuracy(learn(DemonstrationSet(lesson.demonstrations), policy="knn")) == 1.0
+
+
+def test_all_strategies_start_from_the_same_demonstrations() -> None:
+    record = run_lessons(Cell(movements=2, objects=2, repetitions=1), 0, None)
+    curves = list(record["curves"].values())
+    assert record["first"] == 2
+    assert len({curve[0] for curve in curves}) == 1
+    assert {len(curve) for curve in curves} == {7}
+
+
+def test_curves_are_averaged_and_need_so_many_demonstrations() -> None:
+    records = [
+        {"cell": "c", "seed": seed, "first": 3, "curves": {"a": curve, "b": [0.5, 0.5, 0.5]}}
+        for seed, curve in enumerate(([0.5, 1.0, 1.0], [0.5, 0.8, 1.0]))
+    ]
+    rows = tabulate_lessons(records)
+    half = 1.96 * 0.1  # of two values 0.2 apart: deviation 0.1 * sqrt(2), over sqrt(2)
+    assert rows[1] == LessonRow("c", "a", 4, 2, 0.9, round(0.9 - half, 4), 1.0)
+    assert demonstrations_needed(rows, 0.9) == [("c", "a", 4), ("c", "b", None)]
+    assert demonstrations_needed(rows, 0.5) == [("c", "a", 3), ("c", "b", 3)]

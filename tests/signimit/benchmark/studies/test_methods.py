@@ -1,0 +1,42 @@
+"""Baselines find what is planted, and all answer in the same form."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+pytest.importorskip("sklearn", reason="the baselines need scikit-learn")
+
+from signimit.benchmark.studies.cells import Cell, compose_session
+from signimit.benchmark.studies.methods import BASELINES, CLUSTERINGS, Evidence, answer
+from signimit.grouping import canonical_labels
+
+TRUTH = np.array([0, 0, 1, 2, 1, 2, 0, 1, 2])
+
+
+def planted() -> NDArray[np.float64]:
+    """γ of 30 within groups, 1 between, with a little noise."""
+    rng = np.random.default_rng(0)
+    noise = rng.uniform(0.9, 1.1, (9, 9))
+    gamma = np.where(TRUTH[:, None] == TRUTH[None], 30.0, 1.0) * np.sqrt(noise * noise.T)
+    np.fill_diagonal(gamma, 0.0)
+    return np.asarray(gamma)
+
+
+@pytest.mark.parametrize("name", CLUSTERINGS)
+def test_planted_groups_are_found(name: str) -> None:
+    np.testing.assert_array_equal(canonical_labels(CLUSTERINGS[name](planted(), 3, 0)), TRUTH)
+
+
+@pytest.fixture(scope="module")
+def evidence() -> Evidence:
+    return Evidence(compose_session(Cell(movements=2, objects=2, repetitions=1), 0), 0)
+
+
+@pytest.mark.parametrize("method", BASELINES)
+def test_every_baseline_answers_and_answers_the_same_again(evidence: Evidence, method: str) -> None:
+    first, again = answer(evidence, method), answer(evidence, method)
+    assert first.labels.shape == first.focus.shape == (4,)
+    assert set(first.order) == {0, 1}
+    np.testing.assert_array_equal(first.labels, again.labels)
+    np.testing.assert_array_equal(first.focus, again.focus)
+    assert set(first.labels.tolist()) == set(range(first.labels.max() + 1))

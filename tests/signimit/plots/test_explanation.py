@@ -1,0 +1,83 @@
+"""The figure of the reasons shows every demonstration, every meaning and every doubt."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib", reason="figures need matplotlib")
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from signimit import ImitationModel, InvalidInputError, learn
+from signimit.benchmark.studies.cells import Cell, compose_session
+from signimit.plots.explanation import draw_explanation
+
+SESSION = compose_session(Cell(movements=3, objects=2, repetitions=1), 1)
+
+
+@pytest.fixture(scope="module")
+def model() -> ImitationModel:
+    return learn(SESSION.demonstrations, policy="knn")
+
+
+def doubting(model: ImitationModel, number: int) -> ImitationModel:
+    """The same model, in doubt about the object and the movement of one demonstration."""
+    known = model.understanding.diagnostics
+
+    def mixed(belief: NDArray[np.float64]) -> NDArray[np.float64]:
+        changed = belief.copy()
+        changed[number] = 0.0
+        changed[number, :2] = 0.6, 0.4
+        return changed
+
+    changes = {name: mixed(known[name]) for name in ("focus_probability", "movement_probability")}
+    understanding = model.understanding._replace(diagnostics={**known, **changes})
+    return dataclasses.replace(model, understanding=understanding)
+
+
+def panels(figure: Figure) -> list[Axes]:
+    return [axes for part in figure.subfigs for axes in part.axes]
+
+
+def texts(axes: Axes) -> list[str]:
+    return [t.get_text() for t in axes.texts]
+
+
+def test_bars_of_all_demonstrations_are_as_high_as_one(model: ImitationModel) -> None:
+    for panel in panels(draw_explanation(model))[:2]:
+        tops: dict[float, float] = {}
+        for bar in panel.patches:
+            tops[round(bar.get_x(), 3)] = tops.get(round(bar.get_x(), 3), 0.0) + bar.get_height()  # type: ignore[attr-defined]
+        assert len(tops) == len(SESSION.demonstrations)
+        assert list(tops.values()) == pytest.approx([1.0] * len(tops))
+
+
+def test_what_is_in_doubt_has_a_mark_and_the_distance_of_the_objects(model: ImitationModel) -> None:
+    assert not any("?" in text for panel in panels(draw_explanation(model))[:2] for text in texts(panel))
+    upper, lower = panels(draw_explanation(doubting(model, 2)))[:2]
+    apart = np.linalg.norm(np.diff(SESSION.demonstrations[2].objects, axis=0))
+    assert texts(upper) == [f"?\n{100 * apart:.0f} cm"]
+    assert texts(lower) == ["?"]
+
+
+def test_the_lexicon_shows_every_stroke_once(model: ImitationModel) -> None:
+    lexicon = panels(draw_explanation(model))[2:-1]
+    count, columns = len(SESSION.demonstrations), 3
+    focus, movement = lexicon[:columns], lexicon[columns : 2 * columns]
+    assert sum(len(panel.lines) for panel in focus) == sum(len(panel.lines) for panel in movement) == count
+    assert [panel.get_title() for panel in focus] == ["red, 3 times", "green, 3 times", ""]
+
+
+def test_every_word_order_has_a_bar_the_chosen_one_of_no_length(model: ImitationModel) -> None:
+    last = panels(draw_explanation(model))[-1]
+    lengths = [bar.get_width() for bar in last.patches]  # type: ignore[attr-defined]
+    assert lengths == [0.0, pytest.approx(model.explain().word_orders[1][1])]
+
+
+def test_a_method_without_probabilities_has_no_picture() -> None:
+    model = learn(SESSION.demonstrations, SESSION.prototypes, method="paper", policy="knn")
+    with pytest.raises(InvalidInputError, match='"joint" has'):
+        draw_explanation(model)

@@ -1,0 +1,90 @@
+"""Figures show what they are given, sorted by movement."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import signimit as si
+
+pytest.importorskip("matplotlib")
+from signimit.plots import paper as figures  # needs matplotlib
+
+LABELS = np.array([1, 0, 1, 0])
+FOCUS = np.array([0, 1, 2, 0])
+
+
+def demonstration_set() -> si.DemonstrationSet:
+    rng = np.random.default_rng(0)
+    demos = [
+        si.Demonstration(
+            signs=(rng.normal(size=(9, 2)), rng.normal(size=(7, 2))),
+            objects=rng.normal(size=(3, 2)) * 0.1,
+            hand=rng.normal(size=(20, 2)).cumsum(axis=0) * 0.01,
+            times=np.linspace(0.0, 0.38, 20),
+        )
+        for _ in range(4)
+    ]
+    return si.DemonstrationSet(demos)
+
+
+def test_figure_4_has_a_column_a_demonstration_and_a_row_a_sign_and_object() -> None:
+    figure = figures.draw_demonstrations(demonstration_set(), LABELS, FOCUS)
+    titles = [panel.get_title().splitlines()[0] for panel in figure.axes[:4]]
+    assert len(figure.axes) == 4 * (2 + 3)
+    assert titles == ["3", "1", "0", "2"]  # by movement, then by object
+
+
+def test_figure_5_shows_each_pair_of_frames_on_one_scale() -> None:
+    gamma = np.random.default_rng(0).random((4, 4, 3, 3))
+    images = [a.images[0] for a in figures.draw_similarities(gamma, LABELS).axes if a.images]
+    assert len(images) == 9
+    assert len({image.get_clim() for image in images}) == 1
+    shown = np.asarray(images[1].get_array())  # t from red, k from green
+    assert shown[0, 2] == gamma[1, 0, 0, 1]  # rows and columns come in the order 1, 3, 0, 2
+    assert (np.diag(shown) == 0).all()
+
+
+def test_figure_6_parts_the_movements() -> None:
+    gamma = np.random.default_rng(0).random((4, 4))
+    panel = figures.draw_maximum_similarity(gamma, LABELS).axes[0]
+    assert np.asarray(panel.images[0].get_array())[0, 1] == gamma[1, 3]
+    assert float(np.asarray(panel.lines[0].get_ydata()).flat[0]) == 1.5
+
+
+def test_figure_7_frames_what_was_never_demonstrated_and_counts_what_was_obeyed() -> None:
+    path = np.cumsum(np.full((5, 2), 0.01), axis=0)
+    pairs = [(m, f) for m in range(2) for f in range(2)]
+    figure = figures.draw_reproductions(
+        {p: [path, path] for p in pairs}, {p: [True, p == (0, 0)] for p in pairs}, ["up", "down"], frozenset([(1, 1)])
+    )
+    notes = [panel.texts[0].get_text() for panel in figure.axes]
+    assert notes == ["2 of 2 obeyed", "1 of 2 obeyed", "1 of 2 obeyed", "never demonstrated, 1 of 2 obeyed"]
+    assert figure.axes[0].get_ylabel() == "up"
+
+
+def test_memberships_have_a_panel_a_demonstration() -> None:
+    history = si.group_movements(np.array([[0, 9, 1, 1], [9, 0, 1, 1], [1, 1, 0, 9], [1, 1, 9, 0.0]])).history
+    figure = figures.draw_memberships(history, [0, 0, 1, 1])
+    assert [panel.get_title() for panel in figure.axes][:2] == [
+        "demonstration 0 (movement 0)",
+        "demonstration 1 (movement 0)",
+    ]
+
+
+def test_the_same_figure_gives_the_same_bytes() -> None:
+    def drawn() -> bytes:
+        file = io.BytesIO()
+        figures.draw_maximum_similarity(np.eye(4), LABELS).savefig(file, metadata={"Software": None})
+        return file.getvalue()
+
+    assert drawn() == drawn()
+
+
+def test_importing_signimit_does_not_import_matplotlib() -> None:
+    code = "import sys, signimit; sys.exit('matplotlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,200 @@
+"""Sessions: what is composed, what the imitator does with it, and the verdicts."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from signimit.evaluation import NOTHING
+from signimit.exceptions import InvalidInputError
+from signimit.inference import WordOrder
+from signimit.learning import learn
+from signimit.policies.frames import PlacedPolicy
+from signimit.teaching.people.casting import Cast, cast_people
+from signimit_envs.sessions.many_sessions import repeats_paper, session_outcome, study_report, study_table
+from signimit_envs.sessions.report import inference_lines, session_report, session_table, truth_text
+from signimit_envs.sessions.scores import (
+    Share,
+    failing_stage,
+    ideal_path,
+    judge_inference,
+    obeyed_shares,
+    restart_grouping,
+    same_partition,
+)
+from signimit_envs.sessions.session import Command, SessionPlan, SessionResult, compose_session, run_session
+
+PLAN = SessionPlan(attempts=1, seconds=6.0)
+
+
+@pytest.fixture(scope="module")
+def cast() -> Cast:
+    return cast_people(PLAN.language, np.random.default_rng(0))
+
+
+@pytest.fixture(scope="module")
+def result(cast: Cast) -> SessionResult:
+    """A session in which the imitator understands everything: not all are such, with the paper's method."""
+    for seed in range(50):
+        plan = replace(PLAN, seed=seed)
+        session = compose_session(plan, cast)
+        model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, seed)
+        if judge_inference(model, session.truth).all_right:
+            return run_session(plan, cast)
+    pytest.fail("in none of 50 sessions did the paper's method understand everything")
+
+
+def test_every_pair_is_asked_for_and_three_of_nine_were_never_shown(result: SessionResult) -> None:
+    requests = [r.command.request for r in result.reproductions]
+    assert requests == list(PLAN.language.requests)
+    assert [r.command.seen for r in result.reproductions].count(False) == 3
+    shown = set(result.session.truth.requests)
+    assert all((r.command.request in shown) == r.command.seen for r in result.reproductions)
+
+
+def test_signs_of_commands_were_never_used_before(result: SessionResult) -> None:
+    used = {s.tobytes() for d in result.session.demonstrations for s in d.signs}
+    used |= {p.points.tobytes() for p in result.session.prototypes}
+    heard = [s.tobytes() for r in result.reproductions for s in r.command.signs]
+    assert not used & set(heard)
+    assert len(set(heard)) == len(heard)
+
+
+def test_the_simulated_hand_starts_where_it_is_put_and_goes_on_for_as_long_as_planned(result: SessionResult) -> None:
+    for reproduction in result.reproductions:
+        np.testing.assert_allclose(reproduction.answer.path[0], reproduction.command.scene.hand, atol=1e-3)
+        assert len(reproduction.answer.path) == len(reproduction.answer.joints) == PLAN.seconds * 50 + 1
+
+
+def test_a_session_obeys_most_commands_when_its_inferences_are_right(result: SessionResult) -> None:
+    assert judge_inference(result.model, result.session.truth).all_right
+    assert obeyed_shares(result)["all"].count >= 8
+
+
+@pytest.fixture(scope="module")
+def report(result: SessionResult, cast: Cast) -> dict[str, Any]:
+    return session_report(result, cast)
+
+
+def test_the_same_seed_gives_the_same_session(result: SessionResult, cast: Cast, report: dict[str, Any]) -> None:
+    again = run_session(result.session.plan, cast)
+    for a, b in zip(result.reproductions, again.reproductions, strict=True):
+        assert a.answer.path.tobytes() == b.answer.path.tobytes()
+    assert session_report(again, cast) == report
+
+
+def test_the_seed_changes_the_session(cast: Cast) -> None:
+    first, second = (compose_session(replace(PLAN, seed=s), cast).commands[0].scene.hand for s in (0, 1))
+    assert not np.array_equal(first, second)
+
+
+def test_progress_is_told_command_by_command(cast: Cast) -> None:
+    seen = []
+
+    def track(commands: Sequence[Command]) -> Iterator[Command]:
+        for command in commands:
+            seen.append(command.request)
+            yield command
+
+    run_session(replace(PLAN, seconds=1.0), cast, track)
+    assert seen == list(PLAN.language.requests)
+
+
+@pytest.mark.parametrize("wrong", [{"seed": -1}, {"attempts": 0}, {"seconds": 0.5}, {"seconds": float("nan")}])
+def test_a_plan_without_anything_to_see_is_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(InvalidInputError, match=next(iter(wrong))):
+        replace(PLAN, **wrong)
+
+
+def test_partitions_are_the_same_whatever_the_groups_are_called() -> None:
+    assert same_partition([0, 0, 1, 2], [5, 5, 0, 1])
+    assert not same_partition([0, 0, 1, 1], [0, 0, 0, 1])
+    assert not same_partition([0, 0, 0], [0, 0, 1])
+
+
+def test_wilson_intervals_match_numbers_worked_by_hand() -> None:
+    assert Share(36, 36).interval == pytest.approx((0.9036, 1.0), abs=1e-4)
+    assert Share(5, 10).interval == pytest.approx((0.2366, 0.7634), abs=1e-4)
+    assert Share(0, 0).interval == (0.0, 1.0)
+    assert str(Share(5, 10)) == "5 of 10 (95 % interval 0.24 to 0.76)"
+
+
+def test_the_first_restart_is_the_sessions_own_grouping(result: SessionResult) -> None:
+    assert restart_grouping(result, restarts=1) == Share(1, 1)
+    assert restart_grouping(result, restarts=5).total == 5
+
+
+def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult, monkeypatch: pytest.MonkeyPatch) -> None:
+    reproduction = result.reproductions[0]
+    model, failed = result.model, reproduction._replace(performance=NOTHING)
+    understood, answer = model.understanding, reproduction.answer
+    labels, focus = np.zeros_like(model.labels), (model.focus + 1) % 3
+    order = WordOrder(model.word_order.movement, model.word_order.focus)
+
+    def stage(**changes: Any) -> str:
+        other = replace(model, understanding=understood._replace(**changes))
+        return failing_stage(SessionResult(result.session, other, result.reproductions), failed)
+
+    assert failing_stage(result, reproduction) == ""
+    assert stage(labels=labels, focus=focus, word_order=order) == "grouping"
+    assert stage(focus=focus, word_order=order) == "focus"
+    assert stage(word_order=order) == "word order"
+    assert failing_stage(result, failed._replace(answer=answer._replace(focus=(answer.focus + 1) % 3))) == "sign"
+    assert failing_stage(result, failed) == "physics"  # a point obeys, so that only the arm is left
+    monkeypatch.setattr("signimit_envs.sessions.scores.ideal_path", lambda policy, hand, seconds: np.zeros((100, 2)))
+    assert failing_stage(result, failed) == "policy"
+
+
+def test_an_ideal_hand_integrates_the_policy() -> None:
+    class East:
+        kind = "east"
+
+        def __call__(self, hand: object) -> np.ndarray:
+            return np.array([0.5, 0.0])
+
+    policy = PlacedPolicy(East(), np.zeros(2))  # type: ignore[arg-type]
+    path = ideal_path(policy, np.array([0.1, 0.2]), 2.0)
+    np.testing.assert_allclose(path[-1], [1.1, 0.2])
+
+
+def test_the_report_is_json_and_says_what_the_table_says(result: SessionResult, report: dict[str, Any]) -> None:
+    seed = result.session.plan.seed
+    report = json.loads(json.dumps(report, allow_nan=False))
+    assert report["plan"] == {"method": "paper", "policy": PLAN.policy, "seed": seed, "attempts": 1, "seconds": 6.0}
+    obeyed = sum(entry["obeyed"] for entry in report["reproductions"])
+    assert report["obeyed"]["all"]["count"] == obeyed
+    assert f"obeyed, all: {obeyed} of 9" in session_table(result)
+    assert {"python", "numpy", "mujoco", "mink", "platform"} <= set(report["versions"])
+    assert "grouping: right" in inference_lines(result)
+
+
+def test_the_truth_is_told_demonstration_by_demonstration(result: SessionResult) -> None:
+    truth = json.loads(truth_text(result.session))
+    assert truth["word order"] == {"focus": 0, "movement": 1}
+    names = [entry["movement"] for entry in truth["demonstrations"]]
+    assert names == list(result.session.truth.movement_names)
+
+
+def test_a_session_repeats_the_paper_if_all_is_obeyed_and_50_of_51_groupings_are_right(result: SessionResult) -> None:
+    outcome = session_outcome(result)._replace(stages=(), restarts=Share(50, 51))
+    assert repeats_paper(outcome)
+    assert not repeats_paper(outcome._replace(restarts=Share(49, 51)))
+    assert not repeats_paper(outcome._replace(stages=("sign",)))
+    assert not repeats_paper(outcome._replace(verdict=outcome.verdict._replace(word_order=False)))
+
+
+def test_a_study_adds_sessions_up_and_names_what_failed(result: SessionResult) -> None:
+    outcome = session_outcome(result)
+    failed = outcome._replace(
+        seed=99, obeyed={k: Share(0, v.total) for k, v in outcome.obeyed.items()}, stages=("sign",) * 9
+    )
+    table = study_table([outcome, failed])
+    assert "not obeyed because of sign: 9, in sessions 99 (9)" in table
+    report = study_report([outcome, failed], "paper", "knn")
+    assert report["shares"]["obeyed"]["total"] == 18
+    assert [s["seed"] for s in report["sessions"]] == [result.session.plan.seed, 99]

@@ -1,0 +1,86 @@
+"""Sessions go out as files and come back the same; files of strangers are refused in a sentence."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from signimit import PAPER_LANGUAGE, InvalidInputError, StrokeLibrary
+from signimit.teaching.languages import Request
+from signimit_envs.studio.limits import Limits
+from signimit_envs.studio.page.exports import FORMATS, export_bytes, import_bytes, to_library
+from signimit_envs.studio.store.events import Shown
+
+pytest.importorskip("defusedxml", reason="InkML needs signimit[strokes]")
+Make = Callable[[], Shown]
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_demonstrations_come_back_to_the_last_bit(name: str, shown: Make) -> None:
+    there = [shown(), replace(shown(), prompt=Request(2, 1))]
+    back = import_bytes(name, export_bytes(name, there, PAPER_LANGUAGE))
+    assert len(back) == 2
+    for one, other in zip(there, back, strict=True):
+        for a, b in zip((*one.signs, one.hand), (*other.signs, other.hand), strict=True):
+            np.testing.assert_array_equal(a.points, b.points)
+        np.testing.assert_array_equal(one.objects, other.objects)
+        np.testing.assert_array_equal(one.hand.times, other.hand.times)
+        if name != "demonstrations.npz":  # which has no times of signs
+            np.testing.assert_array_equal(one.signs[0].times, other.signs[0].times)
+
+
+def test_strokes_are_labelled_by_what_was_asked_for(shown: Make) -> None:
+    library = to_library([shown(), replace(shown(), prompt=Request(2, 1))], PAPER_LANGUAGE)
+    assert library.labels == ("sign 1", "sign 2", "objects", "movement", "2", "6", "objects", "circle")
+
+
+def test_nothing_cannot_be_exported() -> None:
+    with pytest.raises(InvalidInputError, match="at least one demonstration"):
+        export_bytes("strokes.csv", [], None)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize("content", [b"", b"nonsense", b"PK\x03\x04nonsense", b"<ink/>", b"\xff" * 100, b"a,b\n1,2\n"])
+def test_what_is_no_such_file_is_refused_in_a_sentence(name: str, content: bytes) -> None:
+    with pytest.raises(InvalidInputError) as error:
+        import_bytes(name, content)
+    assert "/tmp" not in str(error.value)
+
+
+def test_a_csv_with_holes_names_the_stroke(shown: Make) -> None:
+    lines = export_bytes("strokes.csv", [shown()], None).decode().splitlines()
+    lines[3] = lines[3].rpartition(",")[0] + ",never"
+    with pytest.raises(InvalidInputError, match="stroke 0: expected points that move"):
+        import_bytes("strokes.csv", "\n".join(lines).encode())
+
+
+def test_strokes_in_another_order_are_no_demonstrations(shown: Make, tmp_path: Path) -> None:
+    library = to_library([shown()], None)
+    shuffled = StrokeLibrary(library.strokes, library.labels[::-1], library.writers, library.source)
+    shuffled.save(tmp_path / "s.npz")
+    with pytest.raises(InvalidInputError, match="again and again"):
+        import_bytes("strokes.npz", (tmp_path / "s.npz").read_bytes())
+
+
+def test_an_archive_that_unpacks_to_too_much_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit_envs.studio.page.exports.LIMITS", Limits(unpacked=2**20))
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive, archive.open("a.npy", "w") as member:
+        member.write(bytes(2**20 + 1))
+    with pytest.raises(InvalidInputError, match="bytes unpacked"):
+        import_bytes("demonstrations.npz", content.getvalue())
+
+
+def test_more_than_could_have_been_drawn_here_is_refused(shown: Make) -> None:
+    far = replace(shown(), objects=np.full((3, 2), 50.0) + np.arange(6).reshape(3, 2))
+    with pytest.raises(InvalidInputError, match="demonstration 0: expected objects and hand within"):
+        import_bytes("strokes.csv", export_bytes("strokes.csv", [far], None))
+    many = [shown()] * 101
+    with pytest.raises(InvalidInputError, match="at most 100 demonstrations"):
+        import_bytes("demonstrations.npz", export_bytes("demonstrations.npz", many, None))
