@@ -1,4 +1,4 @@
-"""From hand velocities to joint velocities: differential inverse kinematics by mink."""
+"""Differential inverse kinematics by mink: hand velocities to joint velocities (paper, section II-F)."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit_envs.arm.scene import MAX_JOINT_SPEED, home_posture
+from signimit_envs.arm.scene import MAX_JOINT_SPEED, POSTURE_COST, home_posture
 
 _SOLVER = "daqp"
-_POSTURE_COST = 1e-4  # settles what the hand leaves open; more would make a resting hand creep, 1e-2 bend its way
 
 
 class JointCommand(NamedTuple):
-    """What the joints should do.
+    """Joint velocities, and what they leave undone.
 
     Attributes:
         velocities: Joint velocities, shape (3,), rad/s.
@@ -43,7 +42,7 @@ class HandController:
         self._jacobian = np.zeros((3, model.nv))
         self._lower, self._upper = model.jnt_range.T.copy()
         self._hand = mink.FrameTask("hand", "site", position_cost=1.0, orientation_cost=0.0)
-        self._posture = mink.PostureTask(model, cost=_POSTURE_COST)
+        self._posture = mink.PostureTask(model, cost=POSTURE_COST)
         self._posture.set_target(home_posture(model))
         self._tasks = [self._hand, self._posture]
         speeds = {model.joint(joint).name: MAX_JOINT_SPEED for joint in range(model.njnt)}

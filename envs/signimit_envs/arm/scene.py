@@ -1,4 +1,4 @@
-"""The MuJoCo scene: where it is, how big it is, and how it is compiled."""
+"""The MuJoCo scene and the constants of table and arm."""
 
 from __future__ import annotations
 
@@ -15,7 +15,9 @@ WORKSPACE = np.array([0.42, 0.38])  # m, half sizes of the area that the hand su
 TABLE = np.array([0.56, 0.50])  # m, half sizes of the table's top
 CONTROL_RATE = 50  # Hz
 SUBSTEPS = 20  # physics steps in a control step
-MAX_JOINT_SPEED = 3.5  # rad/s
+MAX_JOINT_SPEED = 3.5  # rad/s, limit of the drives
+MAX_HAND_SPEED = 1.2  # m/s along each axis; what an action of 1 stands for with hand control
+POSTURE_COST = 1e-4  # against 1 for the hand; more would make a resting hand creep, 1e-2 bend its way
 OBJECT_COUNTS = range(2, 7)
 for _array in (WORKSPACE, TABLE):
     _array.setflags(write=False)

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError
-from signimit_envs.arm.scene import CONTROL_RATE
-from signimit_envs.tabletop.actions import MAX_HAND_SPEED
+from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED
 from signimit_envs.tabletop.env import TabletopEnv
 
 Policy = Callable[[NDArray[np.float64]], ArrayLike]

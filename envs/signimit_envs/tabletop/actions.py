@@ -1,4 +1,4 @@
-"""What an action means: each control turns actions in [-1, 1] into velocities of the joints."""
+"""Actions: joint control and hand control of the arm."""
 
 from __future__ import annotations
 
@@ -10,14 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, UnknownNameError
 from signimit_envs.arm.inverse_kinematics import HandController, JointCommand
-from signimit_envs.arm.scene import CONTROL_RATE, MAX_JOINT_SPEED
-
-MAX_HAND_SPEED = 1.2
-"""Speed of the hand in m/s along each axis that an action of 1 stands for."""
+from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, MAX_JOINT_SPEED
 
 
 class Control(Protocol):
-    """How an arm is commanded.
+    """Control mode: turns actions in [-1, 1] into joint velocities.
 
     Attributes:
         size: Number of elements of an action.
@@ -31,7 +28,7 @@ class Control(Protocol):
 
 
 class JointControl:
-    """Velocities of shoulder, elbow and wrist, in units of 3.5 rad/s."""
+    """Joint control: velocities of shoulder, elbow and wrist, in units of `MAX_JOINT_SPEED`."""
 
     size = 3
 
@@ -45,7 +42,7 @@ class JointControl:
 
 
 class HandControl:
-    """Velocity of the hand along x and y, in units of 1.2 m/s; mink solves for the joints."""
+    """Hand control: velocity along x and y in units of `MAX_HAND_SPEED`; mink solves for the joints."""
 
     size = 2
 
@@ -85,13 +82,8 @@ def checked_action(action: ArrayLike, size: int) -> NDArray[np.float64]:
         values = np.empty(0)
     if values.shape != (size,):
         raise InvalidInputError("action", f"{size} numbers in [-1, 1]", repr(action))
-    for value in values.tolist():  # no comparison holds for NaN; for so few numbers a loop is the fastest
-        if not -1.0 <= value <= 1.0:
-            return _clipped(values)
-    return values
-
-
-def _clipped(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    if all(-1.0 <= value <= 1.0 for value in values.tolist()):  # false for NaN; so few numbers are fastest in a loop
+        return values
     if not np.isfinite(values).all():
-        raise InvalidInputError("action", f"{len(values)} finite numbers in [-1, 1]", repr(values))
+        raise InvalidInputError("action", f"{size} finite numbers in [-1, 1]", repr(values))
     return values.clip(-1.0, 1.0)

@@ -14,8 +14,8 @@ from signimit.teaching.languages import Language
 from signimit.teaching.people.casting import Source
 from signimit_envs.arm.arm import Arm
 from signimit_envs.arm.inverse_kinematics import HandController
-from signimit_envs.arm.scene import CONTROL_RATE, compile_scene
-from signimit_envs.tabletop.actions import MAX_HAND_SPEED, checked_action, make_control
+from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, compile_scene
+from signimit_envs.tabletop.actions import checked_action, make_control
 from signimit_envs.tabletop.language_options import choose_language, choose_person
 from signimit_envs.tabletop.observations import Sight, make_observer
 from signimit_envs.tabletop.people import People
@@ -105,9 +105,9 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         obs_type: ``"state"``, ``"pixels"`` or ``"state_pixels"``.
         control: ``"joint"`` or ``"hand"``; the default of ``signimit/TabletopHand-v0`` is the latter.
         language: A `signimit.teaching.languages.Language`, or a mapping of its fields, which an `EnvSpec` can keep
-            as JSON: signs of the objects and of the movements, their order, fillers. It brings its own number of objects and
-            its movements. Left out: digits, the first ones for the objects and the next for the movements, object
-            first. ``prototypes``, ``unseen`` and ``repetitions`` are about demonstrations and do nothing here.
+            as JSON: signs of the objects and of the movements, their order, fillers. It brings its own number of
+            objects and its movements. Left out: digits, the first ones for the objects and the next for the movements,
+            object first. ``prototypes``, ``unseen`` and ``repetitions`` are about demonstrations and do nothing here.
         signer: Stroke library file with the signs, or the file and a person in it; left out, a synthetic person.
         mover: The same for the drawings that the judge compares with.
         reward: ``"sparse"`` or ``"dense"``.

@@ -10,11 +10,10 @@ from numpy.typing import NDArray
 
 from signimit_envs.arm.batch.box_least_squares import LeastSquares, solve_box
 from signimit_envs.arm.batch.planar_arm import PlanarArm
-from signimit_envs.arm.scene import MAX_JOINT_SPEED
+from signimit_envs.arm.scene import MAX_JOINT_SPEED, POSTURE_COST
 
 Array = NDArray[np.float64]
 
-_POSTURE_COST = 1e-4  # as in `signimit_envs.arm.inverse_kinematics`
 _DAMPING = 1e-12  # mink's, of all joints
 _GAIN = 0.95  # mink's: of the way to a joint's limit that is allowed in one step
 _STRIDE = 0.05  # m at most in one step towards a posture: the arm is far from linear over more
@@ -37,9 +36,8 @@ class ManyHandsController:
     """Solves for joint velocities that move many hands, within the limits of joints and drives.
 
     Every arm has the problem that `signimit_envs.arm.inverse_kinematics.HandController` gives to mink: its hand's
-    displacement
-    and, at a cost of 1e-4, its posture. What an arm is told does not depend on the others, to the last bit. Arrays have
-    their components first and the B arms last.
+    displacement and, at a small cost, its posture. What an arm is told does not depend on the others, to
+    the last bit. Arrays have their components first and the B arms last.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
@@ -64,8 +62,8 @@ class ManyHandsController:
         problem = LeastSquares(
             jacobian=np.stack([-reaches[1], reaches[0]]),
             wanted=displacements,
-            preferred=(arm.home - inside) * (_POSTURE_COST**2 / (_POSTURE_COST**2 + _DAMPING)),
-            damping=_POSTURE_COST**2 + _DAMPING,
+            preferred=(arm.home - inside) * (POSTURE_COST**2 / (POSTURE_COST**2 + _DAMPING)),
+            damping=POSTURE_COST**2 + _DAMPING,
             lower=np.maximum(_GAIN * (arm.lower - inside), -fastest),
             upper=np.minimum(_GAIN * (arm.upper - inside), fastest),
         )

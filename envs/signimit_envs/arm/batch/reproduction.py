@@ -11,12 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from signimit import InvalidInputError
 from signimit.validation import finite_array, item_list
 from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
-from signimit_envs.arm.batch.physics import ManyArms, compile_arm
+from signimit_envs.arm.batch.physics import ManyArms, QuietLog, compile_arm
 from signimit_envs.arm.batch.policy_batch import Policy, PolicyBatch
-from signimit_envs.arm.physics_log import QuietLog
-from signimit_envs.arm.scene import CONTROL_RATE, WORKSPACE
+from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, WORKSPACE
 from signimit_envs.sessions.reproduction import hand_action
-from signimit_envs.tabletop.actions import MAX_HAND_SPEED
 
 Array = NDArray[np.float64]
 

@@ -9,8 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from signimit_envs.arm.batch.physics import ManyArms, compile_arm
-from signimit_envs.arm.physics_log import QuietLog
+from signimit_envs.arm.batch.physics import ManyArms, QuietLog, compile_arm
 from signimit_envs.arm.scene import SUBSTEPS, compile_scene
 
 HOME = np.array([-1.05, 1.32, 1.20])

@@ -3,7 +3,7 @@
 import mujoco
 import pytest
 
-from signimit_envs.arm.physics_log import QuietLog
+from signimit_envs.arm.batch.physics import QuietLog
 
 
 def logs() -> bool:
