@@ -7,13 +7,14 @@ into joint commands; the hand circles the right object; a frame of a film is dra
 
 from __future__ import annotations
 
+import subprocess
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
-import imageio.v3 as iio
+import imageio_ffmpeg
 import mink
 import mujoco
 import numpy as np
@@ -170,7 +171,9 @@ def test_a_film_of_the_scene_is_drawn_without_a_display(tmp_path: Path) -> None:
         film.step(np.array([0.3, 0.1], np.float32))
     film.close()
     (file,) = tmp_path.glob("*.mp4")
-    frames = iio.imread(file, plugin="FFMPEG")
+    decode = [imageio_ffmpeg.get_ffmpeg_exe(), "-i", str(file), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    frames = np.frombuffer(subprocess.run(decode, capture_output=True, check=True).stdout, np.uint8)
+    frames = frames.reshape(-1, 480, 480, 3)
     assert len(frames) == 11
     frame = frames[-1].astype(int)
     for channel in range(3):  # something red, something green, something blue
