@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from signimit.exceptions import InvalidInputError
+from signimit.explanation import object_name
 from signimit.learning import ImitationModel
 from signimit.strokes import StrokeLibrary
-from signimit.summary import object_name
 from signimit.teaching.scenes import sample_hand, sample_scene
 from signimit_envs.cli.command_line import run_program
 from signimit_envs.sessions.session import Scene, answer_signs

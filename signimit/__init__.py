@@ -24,7 +24,6 @@ M        memberships of trajectories in movement groups, ``(N, N)``     m_{m;t}
 Metres, seconds, radians. Table frame: x right, y away from the arm's base, origin at the table's centre.
 """
 
-from signimit.asking import Query as Query
 from signimit.demonstrations import Demonstration as Demonstration
 from signimit.demonstrations import DemonstrationSet as DemonstrationSet
 from signimit.evaluation import Performance as Performance
@@ -35,6 +34,7 @@ from signimit.exceptions import InvalidInputError as InvalidInputError
 from signimit.exceptions import MissingDependencyError as MissingDependencyError
 from signimit.exceptions import SignimitError as SignimitError
 from signimit.exceptions import UnknownNameError as UnknownNameError
+from signimit.explanation import Query as Query
 from signimit.grouping import Grouping as Grouping
 from signimit.grouping import group_movements as group_movements
 from signimit.inference import WordOrder as WordOrder

@@ -1,4 +1,7 @@
-"""Why the learner understood what it understood, in numbers and in words."""
+"""What a learner understood and why, in words; and what to ask for next, so that the answer teaches most.
+
+The paper's imitator takes what it is shown; asking is among its future work (section IV).
+"""
 
 from __future__ import annotations
 
@@ -6,17 +9,22 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import entr
 
+from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
-from signimit.learners.base import Understanding
-from signimit.summary import object_name, ordinal, summarise
+from signimit.learners.base import Belief, Understanding
+from signimit.learners.joint.drawing_distance import make_drawing
 
 DOUBT = 0.1  # an object or a movement that is at least this probable beside the chosen one makes it ambiguous
+OBJECT_NAMES = ("red", "green", "blue", "violet", "orange", "teal")
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
+_CLEAR = 1.5  # median half sizes of a drawing; objects this far apart are told from each other by 1 - 1/e
 
 
 class Ambiguity(NamedTuple):
-    """A demonstration that could have been about something else.
+    """A demonstration that could have been about another object.
 
     Attributes:
         demonstration: Its number.
@@ -30,9 +38,14 @@ class Ambiguity(NamedTuple):
     probabilities: tuple[float, ...]
     apart: float
 
+    def __str__(self) -> str:
+        """Return the sentence."""
+        named = ", ".join(f"{object_name(i)} {p:.0%}" for i, p in zip(self.objects, self.probabilities, strict=True))
+        return f"Demonstration {self.demonstration} is ambiguous: {named}; the first two are {self.apart:.2f} m apart."
+
 
 class Reasons(NamedTuple):
-    """Why; printing it says it in words.
+    """Why a model understood what it did; printing it says it in words.
 
     Attributes:
         focus_probability: Of each object in each demonstration, given all other answers, shape (N, O).
@@ -55,63 +68,154 @@ class Reasons(NamedTuple):
         return self.text
 
 
-def explain_understanding(understanding: Understanding, objects: NDArray[np.float64]) -> Reasons:
-    """Explain what the joint learner understood.
+class Query(NamedTuple):
+    """An utterance to ask with, made of signs that were seen, and where.
+
+    Attributes:
+        signs: The W signs in the order in which to make them, each (T_s, 2): copies of signs that were seen.
+        copied: For each sign the demonstration it is copied from.
+        scene: Number of the scene to ask in.
+        movement: What the learner believes that the signs ask for, an index of ``model.movements``.
+        focus: The object that it believes they ask for.
+        gain: How much the answer is expected to teach, no unit: comparable among queries to one model only.
+    """
+
+    signs: tuple[NDArray[np.float64], ...]
+    copied: tuple[int, ...]
+    scene: int
+    movement: int
+    focus: int
+    gain: float
+
+
+def object_name(index: int) -> str:
+    """Return the colour of an object, or its number where colours have run out."""
+    return OBJECT_NAMES[index] if index < len(OBJECT_NAMES) else f"number {index}"
+
+
+def ordinal(position: int) -> str:
+    """Return "first" for position 0, and so on."""
+    return _ORDINALS[position] if position < len(_ORDINALS) else f"{position + 1}th"
+
+
+def summarise(understanding: Understanding, objects: int) -> str:
+    """Say which demonstrations show which movement about which object, and what each word and sign means.
 
     Args:
-        understanding: With the joint learner's diagnostics.
+        understanding: What was inferred.
+        objects: Number of objects in a scene.
+
+    Returns:
+        Lines of text; demonstrations are numbered from 0.
+    """
+    labels, focus, order = understanding[:3]
+    count = int(labels.max()) + 1
+    shown = "1 demonstration shows" if len(labels) == 1 else f"{len(labels)} demonstrations show"
+    lines = [f"{shown} {count} movement{'s' * (count != 1)}."]
+    for m in range(count):
+        numbers = np.flatnonzero(labels == m).tolist()
+        members = ", ".join(f"{t} (about {object_name(int(focus[t]))})" for t in numbers)
+        lines.append(f"  Movement {m}: demonstration{'s' * (len(numbers) != 1)} {members}.")
+    lines.append(
+        f"The {ordinal(order.focus)} word names the object, the {ordinal(order.movement)} word names the movement."
+    )
+    meanings = [(order.focus, f"the {object_name(i)} object", focus == i) for i in range(objects)]
+    meanings += [(order.movement, f"movement {m}", labels == m) for m in range(count)]
+    for word, meaning, shows_it in meanings:
+        numbers = np.flatnonzero(shows_it).tolist()
+        named = f"demonstration{'s' * (len(numbers) != 1)} {', '.join(map(str, numbers))}"
+        seen = f"  Signs like the {ordinal(word)} of {named} mean {meaning}."
+        lines.append(seen if numbers else f"  No sign was seen for {meaning}.")
+    return "\n".join(lines)
+
+
+def explain_understanding(understanding: Understanding, objects: NDArray[np.float64]) -> Reasons:
+    """Explain what a learner understood, by its belief.
+
+    Args:
+        understanding: With a belief, as the joint learner has.
         objects: Object positions, shape (N, O, 2), m.
 
     Raises:
-        InvalidInputError: If another learner made it.
+        InvalidInputError: If the learner has no probabilities to tell.
     """
-    known = understanding.diagnostics
-    if not {"focus_probability", "movement_probability", "word_order_evidence"} <= set(known):
-        raise InvalidInputError("method", 'probabilities, which "joint" has', "a method without")
-    focus, movement = known["focus_probability"], known["movement_probability"]
-    doubtful = [t for t in range(len(focus)) if (focus[t] >= DOUBT).sum() > 1]
-    ambiguous = tuple(_ambiguity(t, focus[t], objects[t]) for t in doubtful)
-    unsure = tuple(int(t) for t in np.flatnonzero((movement >= DOUBT).sum(axis=1) > 1))
-    orders = _ranked_orders(known["word_order_evidence"])
+    focus, movement, order_evidence = _known_belief(understanding)
+    ambiguous = []
+    for t in np.flatnonzero((focus >= DOUBT).sum(axis=1) > 1).tolist():
+        likely = [int(i) for i in np.argsort(-focus[t], kind="stable") if focus[t, i] >= DOUBT]
+        apart = float(np.linalg.norm(objects[t, likely[0]] - objects[t, likely[1]]))
+        ambiguous.append(Ambiguity(t, tuple(likely), tuple(float(focus[t, i]) for i in likely), apart))
+    unsure = tuple(np.flatnonzero((movement >= DOUBT).sum(axis=1) > 1).tolist())
+    best, possible = float(order_evidence.max()), np.argwhere(np.isfinite(order_evidence))
+    ranked = sorted((best - float(order_evidence[f, m]), WordOrder(int(f), int(m))) for f, m in possible)
     lines = [summarise(understanding, objects.shape[1])]
-    lines += [_order_line(orders), *map(_ambiguity_line, ambiguous)]
-    lines += [_movement_line(t, movement[t]) for t in unsure]
+    if len(ranked) == 1:
+        lines.append("With one word there is only one word order.")
+    else:
+        loss, second = ranked[1]
+        words = f"{ordinal(second.focus)} word the object and {ordinal(second.movement)} the movement"
+        lines.append(f"The next best word order, {words}, explains {loss:.1f} nats less.")
+    lines += map(str, ambiguous)
+    names = [f"movement {m}" for m in range(movement.shape[1] - 1)] + ["a new one"]
+    for t in unsure:
+        named = [f"{name} {p:.0%}" for name, p in zip(names, movement[t], strict=True) if p >= DOUBT]
+        lines.append(f"Demonstration {t} may show {' or '.join(named)}.")
     if not ambiguous and not unsure:
         lines.append(f"No demonstration is in doubt: nothing else is as probable as {DOUBT:.0%}.")
-    return Reasons(focus, movement, ambiguous, unsure, orders, "\n".join(lines))
+    orders = tuple((order, loss) for loss, order in ranked)
+    return Reasons(focus, movement, tuple(ambiguous), unsure, orders, "\n".join(lines))
 
 
-def _ambiguity(number: int, probability: NDArray[np.float64], places: NDArray[np.float64]) -> Ambiguity:
-    order = [int(i) for i in np.argsort(-probability, kind="stable") if probability[i] >= DOUBT]
-    apart = float(np.linalg.norm(places[order[0]] - places[order[1]]))
-    return Ambiguity(number, tuple(order), tuple(float(probability[i]) for i in order), apart)
+def choose_query(demonstrations: DemonstrationSet, understanding: Understanding, scenes: NDArray[np.float64]) -> Query:
+    """Choose the pair of meanings and the scene with the largest expected gain.
+
+    What a pair can teach is the doubt about each of its two words, in nats, and that the pair is new: 1 where it was
+    never seen, less the more often it was. All of it counts as far as the scene tells the object from its neighbours.
+    The words are copied from the most doubtful demonstrations, so that what was taken for one and is two comes apart.
+
+    Args:
+        demonstrations: What was seen, N.
+        understanding: With a belief, as the joint learner has.
+        scenes: Object positions of the scenes there are to choose from, shape (S, O, 2), m.
+
+    Raises:
+        InvalidInputError: If the learner has no probabilities to tell.
+    """
+    belief = _known_belief(understanding)
+    labels, focus, order = understanding[:3]
+    about_movement = entr(belief.movement_probability).sum(axis=1)
+    about_focus = entr(belief.focus_probability).sum(axis=1)
+    shown = np.zeros((int(labels.max()) + 1, scenes.shape[1]))
+    np.add.at(shown, (labels, focus), 1.0)
+    to_movement = _most_doubtful(about_movement, labels, shown.shape[0])
+    to_focus = _most_doubtful(about_focus, focus, shown.shape[1])
+    lesson = 1.0 / (1.0 + shown) + about_movement[to_movement][:, None] + about_focus[to_focus]
+    lesson[:, to_focus < 0] = 0.0  # no demonstration has the word for that object
+    half_size = float(np.median([make_drawing(d.hand, d.times).half_size for d in demonstrations]))
+    gains = lesson[None] * _clarity(scenes, _CLEAR * half_size)[:, None]
+    scene, movement, about = (int(i) for i in np.unravel_index(int(gains.argmax()), gains.shape))
+    copied = [int(to_focus[about])] * len(demonstrations[0].signs)
+    copied[order.movement] = int(to_movement[movement])
+    signs = tuple(demonstrations[t].signs[word] for word, t in enumerate(copied))
+    return Query(signs, tuple(copied), scene, movement, about, float(gains[scene, movement, about]))
 
 
-def _ranked_orders(evidence: NDArray[np.float64]) -> tuple[tuple[WordOrder, float], ...]:
-    best = float(evidence.max())
-    possible = np.argwhere(np.isfinite(evidence))
-    ranked = sorted((best - float(evidence[f, m]), WordOrder(int(f), int(m))) for f, m in possible)
-    return tuple((order, loss) for loss, order in ranked)
+def _known_belief(understanding: Understanding) -> Belief:
+    if understanding.belief is None:
+        raise InvalidInputError("method", 'probabilities, which "joint" has', "a method without")
+    return understanding.belief
 
 
-def _order_line(orders: tuple[tuple[WordOrder, float], ...]) -> str:
-    if len(orders) == 1:
-        return "With one word there is only one word order."
-    (_, _), (second, loss) = orders[:2]
-    return (
-        f"The next best word order, {ordinal(second.focus)} word the object and {ordinal(second.movement)} the "
-        f"movement, explains {loss:.1f} nats less."
-    )
+def _most_doubtful(doubt: NDArray[np.float64], meaning: NDArray[np.int64], count: int) -> NDArray[np.intp]:
+    """Return for each meaning its demonstration with most doubt, -1 where it has none, shape (count,)."""
+    chosen = np.full(count, -1, dtype=np.intp)
+    for t in np.argsort(doubt, kind="stable"):
+        chosen[meaning[t]] = t
+    return chosen
 
 
-def _ambiguity_line(doubt: Ambiguity) -> str:
-    named = ", ".join(f"{object_name(i)} {p:.0%}" for i, p in zip(doubt.objects, doubt.probabilities, strict=True))
-    return f"Demonstration {doubt.demonstration} is ambiguous: {named}; the first two are {doubt.apart:.2f} m apart."
-
-
-def _movement_line(number: int, probability: NDArray[np.float64]) -> str:
-    last = len(probability) - 1
-    named = [
-        f"{'a new one' if m == last else f'movement {m}'} {p:.0%}" for m, p in enumerate(probability) if p >= DOUBT
-    ]
-    return f"Demonstration {number} may show {' or '.join(named)}."
+def _clarity(scenes: NDArray[np.float64], length: float) -> NDArray[np.float64]:
+    """How well a drawing about each object can be told from one about its nearest neighbour, within [0, 1], (S, O)."""
+    apart = np.linalg.norm(scenes[:, :, None] - scenes[:, None], axis=-1)
+    apart[:, np.eye(scenes.shape[1], dtype=bool)] = np.inf
+    return np.asarray(-np.expm1(-((apart.min(axis=2) / length) ** 2)))

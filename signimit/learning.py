@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple, Self
@@ -11,19 +11,17 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.asking import Query, choose_query
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import InvalidInputError, UnknownNameError
-from signimit.explanation import Reasons, explain_understanding
+from signimit.explanation import Query, Reasons, choose_query, explain_understanding, summarise
 from signimit.inference import WordOrder
-from signimit.io.model_archive import ModelParts, check_policy_kind, frozen, read_model, write_model
 from signimit.learners import DEFAULT_METHOD, get_learner
-from signimit.learners.base import IncrementalLearner, SignReader, Understanding
+from signimit.learners.base import SignReader, Understanding
+from signimit.learners.model_files import ModelParts, check_policy_kind, frozen, read_model, write_model
 from signimit.policies import DEFAULT_POLICY, Policy, make_policy
 from signimit.policies.frames import PlacedPolicy, on_table
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke
-from signimit.summary import summarise
 from signimit.validation import finite_array, item_list, make_generator, moving_points
 
 
@@ -92,18 +90,24 @@ class ImitationModel:
         return self.understanding.word_order
 
     @property
-    def diagnostics(self) -> dict[str, NDArray[Any]]:
+    def diagnostics(self) -> Mapping[str, NDArray[Any]]:
         """Arrays that show how the learner came to its conclusions; which ones depends on the method."""
-        return dict(self.understanding.diagnostics)
+        return self.understanding.diagnostics
+
+    @cached_property
+    def landmarks(self) -> NDArray[np.float64]:
+        """Place each demonstration was about, shape (N, 2), m, table frame: where its focus was."""
+        places = self.demonstrations.objects[np.arange(len(self.focus)), self.focus]
+        places.setflags(write=False)
+        return places
 
     @cached_property
     def movements(self) -> tuple[Movement, ...]:
         """The movements found, each with its members seen from the object they were about."""
-        demos, focus = self.demonstrations, self.focus
-        found = []
+        demos, found = self.demonstrations, []
         for m in range(int(self.labels.max()) + 1):
             members = tuple(int(t) for t in np.flatnonzero(self.labels == m))
-            paths = tuple(demos[t].hand - demos[t].objects[focus[t]] for t in members)
+            paths = tuple(demos[t].hand - self.landmarks[t] for t in members)
             found.append(Movement(members, paths, tuple(demos[t].times for t in members)))
         return tuple(found)
 
@@ -172,12 +176,11 @@ class ImitationModel:
         Raises:
             InvalidInputError: If it differs in words or objects from the others, or the method cannot go on.
         """
-        learner = get_learner(self.method)
-        if not isinstance(learner, IncrementalLearner):
-            raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
         demos = DemonstrationSet([*self.demonstrations, demonstration])
-        understanding = frozen(learner.extend(demos, self.understanding))
-        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
+        understanding = get_learner(self.method).extend(demos, self.understanding)
+        if understanding is None:
+            raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
+        later = type(self)(demos, frozen(understanding), self.method, self.policy_kind, self.prototypes)
         made = {self._shown(m): policy for m, policy in self._policies.items()}
         unchanged = {m: later._shown(m) for m in range(len(later.movements)) if later._shown(m) in made}
         later._policies.update({m: made[shown] for m, shown in unchanged.items()})

@@ -1,15 +1,40 @@
-"""The seam between learners and the model: what is concluded from demonstrations, and how signs are read afterwards."""
+"""What a learner concludes from demonstrations, and the protocol that every learner keeps to."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.inference import WordOrder
+
+
+class Belief(NamedTuple):
+    """How sure a learner is of what it concluded.
+
+    Attributes:
+        focus_probability: Of each object in each demonstration, given all other conclusions, shape (N, O).
+        movement_probability: Of each movement found, and last of none of them, shape (N, K + 1).
+        word_order_evidence: How well each word order explains the demonstrations, shape (W, W), nats: focus word, then
+            movement word; -inf where an order is impossible.
+    """
+
+    focus_probability: NDArray[np.float64]
+    movement_probability: NDArray[np.float64]
+    word_order_evidence: NDArray[np.float64]
+
+
+class Evidence(Protocol):
+    """What a learner measured and keeps with its conclusions: a NamedTuple of arrays, another for each learner.
+
+    Fields are called as in model files; what was not measured is None.
+    """
+
+    def _asdict(self) -> dict[str, Any]: ...
 
 
 class Understanding(NamedTuple):
@@ -19,13 +44,21 @@ class Understanding(NamedTuple):
         labels: Movement of each demonstration, shape (N,), 0, 1, ... in order of first appearance.
         focus: Object each demonstration was about, shape (N,).
         word_order: Which word of the utterance names the object and which the movement.
-        diagnostics: Arrays that show why, by name.
+        belief: Probabilities, where the learner has any.
+        evidence: What the learner measured, where it keeps anything.
     """
 
     labels: NDArray[np.int64]
     focus: NDArray[np.int64]
     word_order: WordOrder
-    diagnostics: dict[str, NDArray[Any]]
+    belief: Belief | None = None
+    evidence: Evidence | None = None
+
+    @property
+    def diagnostics(self) -> Mapping[str, NDArray[Any]]:
+        """All arrays of the evidence and the belief by name, for a reader's eyes; programs take the typed records."""
+        records = [record._asdict() for record in (self.evidence, self.belief) if record is not None]
+        return MappingProxyType({k: v for record in records for k, v in record.items() if v is not None})
 
 
 class Reading(NamedTuple):
@@ -57,17 +90,21 @@ class Learner(Protocol):
         """Infer movements, foci and word order."""
         ...
 
+    def extend(self, demonstrations: DemonstrationSet, understanding: Understanding) -> Understanding | None:
+        """Infer from all demonstrations, given what was understood of all but the last; None if the method cannot."""
+        return None
+
     def reader(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
     ) -> SignReader:
         """Make the reader of new utterances; it depends on nothing else, so that a saved model can make it again."""
         ...
 
+    def restore_evidence(self, demonstrations: DemonstrationSet, arrays: Mapping[str, NDArray[Any]]) -> Evidence | None:
+        """Make the evidence again from the arrays of a model file, by the names of its fields.
 
-@runtime_checkable
-class IncrementalLearner(Protocol):
-    """A learner that takes one demonstration after another."""
-
-    def extend(self, demonstrations: DemonstrationSet, understanding: Understanding) -> Understanding:
-        """Infer from all demonstrations, given what was understood of all but the last."""
+        Raises:
+            KeyError: If an array is missing that the reader needs.
+            InvalidInputError: If one does not fit the demonstrations.
+        """
         ...

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,14 +13,28 @@ from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
 from signimit.grouping import group_movements
 from signimit.inference import infer_focus, infer_word_order
-from signimit.learners.base import Reading, Understanding
+from signimit.learners.base import Learner, Reading, Understanding
 from signimit.signs import SignSpace
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit.validation import finite_array
 
 
+class PaperEvidence(NamedTuple):
+    """What the paper's steps were made of.
+
+    Attributes:
+        sign_points: All signs in the sign space, shape (N, W, P).
+        distances: Δ, shape (N, N, O, O), rad².
+        history: Memberships after each step of Algorithm 1, shape (steps + 1, N, N).
+    """
+
+    sign_points: NDArray[np.float64]
+    distances: NDArray[np.float64] | None = None
+    history: NDArray[np.float64] | None = None
+
+
 @dataclass(frozen=True)
-class PaperLearner:
+class PaperLearner(Learner):
     """The paper's inference, with Algorithm 1 in one of its two readings.
 
     Attributes:
@@ -38,8 +53,8 @@ class PaperLearner:
         focus = infer_focus(distances, grouping.labels)
         points = _sign_points(space, demonstrations)
         order = infer_word_order(points, grouping.labels, focus, method="paper")
-        diagnostics = {"distances": distances, "history": grouping.history, "sign_points": points}
-        return Understanding(grouping.labels, focus, order, diagnostics)
+        evidence = PaperEvidence(points, distances, grouping.history)
+        return Understanding(grouping.labels, focus, order, evidence=evidence)
 
     def reader(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
@@ -47,8 +62,15 @@ class PaperLearner:
         """Make a reader that compares signs with those of all demonstrations."""
         space = _sign_space(prototypes)
         shape = (len(demonstrations), len(demonstrations[0].signs), len(space.prototypes))
-        points = finite_array(understanding.diagnostics["sign_points"], "sign points", shape)
+        evidence = understanding.evidence
+        if not isinstance(evidence, PaperEvidence):
+            raise InvalidInputError("understanding", "the points of signs, which the paper's learner keeps", "none")
+        points = finite_array(evidence.sign_points, "sign points", shape)
         return NearestSignReader(space, points, understanding, demonstrations.objects.shape[1])
+
+    def restore_evidence(self, demonstrations: DemonstrationSet, arrays: Mapping[str, NDArray[Any]]) -> PaperEvidence:
+        """Make the evidence again from the arrays of a model file."""
+        return PaperEvidence(arrays["sign_points"], arrays.get("distances"), arrays.get("history"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +96,7 @@ class NearestSignReader:
         nearest sign. They are not calibrated.
         """
         heard = self.space.embed_all(signs)
-        labels, focus, order, _ = self.understanding
+        labels, focus, order = self.understanding[:3]
         movement = self._weigh(heard, order.movement, labels, int(labels.max()) + 1)
         return Reading(movement, self._weigh(heard, order.focus, focus, self.objects))
 

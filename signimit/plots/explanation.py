@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import MissingDependencyError
-from signimit.explanation import DOUBT, Reasons
+from signimit.explanation import DOUBT, Reasons, object_name, ordinal
 from signimit.learning import ImitationModel, Movement
 from signimit.plots.paper import FRAME, draw_sign, object_colour
-from signimit.summary import object_name, ordinal
 
 try:
     from matplotlib.figure import Figure

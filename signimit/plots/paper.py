@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import MissingDependencyError
-from signimit.summary import object_name
+from signimit.explanation import object_name
 
 try:
     from matplotlib.figure import Figure

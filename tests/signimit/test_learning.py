@@ -183,7 +183,8 @@ def test_a_movement_is_its_members_seen_from_their_objects(session: Session, mod
     for movement in model.movements:
         for t, path, times in zip(*movement, strict=True):
             shown = session.demonstrations[t]
-            np.testing.assert_array_equal(path, shown.hand - shown.objects[model.focus[t]])
+            np.testing.assert_array_equal(model.landmarks[t], shown.objects[model.focus[t]])
+            np.testing.assert_array_equal(path, shown.hand - model.landmarks[t])
             np.testing.assert_array_equal(times, shown.times)
     assert sorted(t for movement in model.movements for t in movement.members) == list(range(12))
 
@@ -221,7 +222,9 @@ def test_inputs_are_not_written_to_and_models_cannot_be(session: Session, model:
         w.setflags(write=False)
     model.respond(words, SCENE)
     assert [d.hand.tobytes() for d in session.demonstrations] == before
-    for array in (model.labels, model.focus, *model.diagnostics.values()):
+    with pytest.raises(TypeError, match="item assignment"):
+        model.diagnostics["distances"] = model.focus  # type: ignore[index]
+    for array in (model.labels, model.focus, model.landmarks, *model.diagnostics.values()):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.grouping import group_movements
+from signimit.learners.paper import PaperEvidence
 from signimit.plots import paper as figures
 from signimit.plots.explanation import draw_explanation
 from signimit.similarity import maximum_similarities, policy_similarities
@@ -22,7 +23,8 @@ def write_figures(result: SessionResult, folder: Path) -> None:
     model, language = result.model, result.session.plan.language
     distances = session_distances(result)
     similarity = maximum_similarities(distances)
-    history = model.diagnostics.get("history")
+    evidence = model.understanding.evidence
+    history = evidence.history if isinstance(evidence, PaperEvidence) else None
     if history is None:  # a method without Algorithm 1; show what the paper's would have done
         history = group_movements(similarity, method=algorithm_reading(result), rng=result.session.plan.seed).history
     reproductions = by_request(result)
@@ -38,7 +40,7 @@ def write_figures(result: SessionResult, folder: Path) -> None:
         ),
         "memberships": figures.draw_memberships(history, model.labels),
     }
-    if "focus_probability" in model.diagnostics:
+    if model.understanding.belief is not None:
         drawn["why"] = draw_explanation(model)
     for name, figure in drawn.items():
         # Without the date and version of the software the same session gives the same bytes.

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from signimit.summary import object_name
+from signimit.explanation import object_name
 from signimit.teaching.languages import Request
 from signimit.teaching.people.casting import Cast
 from signimit_envs.sessions.scores import (

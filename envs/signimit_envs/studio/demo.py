@@ -7,7 +7,7 @@ import asyncio
 import numpy as np
 
 from signimit.evaluation import performed
-from signimit.summary import object_name
+from signimit.explanation import object_name
 from signimit.teaching.languages import PAPER_LANGUAGE, Request
 from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance, templates
 from signimit_envs.studio.page.prompts import next_request, prompt_text

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration
-from signimit.summary import object_name, ordinal
+from signimit.explanation import object_name, ordinal
 from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.sessions.session import Answer, Reproduction, SessionResult
 

@@ -42,7 +42,7 @@ class Chance:
         labels = canonical_labels(self._rng.integers(0, objects, count))
         order = np.resize(self._rng.permutation(words), 2)  # one word is both
         focus = self._rng.integers(0, objects, count)
-        self.understanding = Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), {})
+        self.understanding = Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])))
 
     def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:
         """Guess a movement and an object."""

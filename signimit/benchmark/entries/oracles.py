@@ -12,6 +12,7 @@ from signimit.demonstrations import DemonstrationSet
 from signimit.grouping import canonical_labels, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
 from signimit.learners.base import Reading, Understanding
+from signimit.learners.paper import PaperEvidence
 from signimit.learning import ImitationModel
 from signimit.policies import DEFAULT_POLICY
 from signimit.policies.frames import on_table
@@ -50,7 +51,7 @@ def _model(kit: Kit, demonstrations: DemonstrationSet, labels: Labels, focus: La
     signs = [sign for shown in demonstrations for sign in shown.signs]
     points = SignSpace(kit.prototypes).embed_all(signs).reshape(len(demonstrations), -1, len(kit.prototypes))
     order = infer_word_order(points, labels, focus, method="paper")
-    understanding = Understanding(labels, focus, order, {"sign_points": points})
+    understanding = Understanding(labels, focus, order, evidence=PaperEvidence(points))
     return ImitationModel(demonstrations, understanding, METHOD, DEFAULT_POLICY, kit.prototypes)
 
 
@@ -76,7 +77,7 @@ class AllKnowing:
         order = WordOrder(language.focus_word, language.movement_word)
         labels = canonical_labels(shown.movement)
         self._number = {int(meant): int(label) for meant, label in zip(shown.movement, labels, strict=True)}
-        self.understanding = Understanding(labels, shown.focus, order, {})
+        self.understanding = Understanding(labels, shown.focus, order)
         self._model = ImitationModel(demonstrations, self.understanding, METHOD, DEFAULT_POLICY)
 
     def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:

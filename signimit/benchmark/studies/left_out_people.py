@@ -19,7 +19,8 @@ from signimit.benchmark.studies.cells import Cell, People, StudySession, compose
 from signimit.benchmark.studies.methods import Answer
 from signimit.benchmark.studies.scoring import judge
 from signimit.learners.joint.distance_model import DRAWINGS, SIGNS, DistanceModel
-from signimit.learners.joint.learner import JointLearner, measure_distances
+from signimit.learners.joint.distances import measure_distances
+from signimit.learners.joint.learner import JointLearner
 from signimit.strokes import StrokeLibrary
 
 MEASURED = (

@@ -83,7 +83,7 @@ def _hold(kind: Quiz, seed: int, library: StrokeLibrary | None) -> NDArray[np.in
     asked = [deck.draw(sign, rng)[0].points for sign in kind.signs]
     prototypes = [deck.draw(sign, rng)[0].points for sign in FILLER_SIGNS]
     truth = np.arange(len(asked))
-    said = Understanding(np.repeat(truth, kind.shown), np.repeat(truth, kind.shown), WordOrder(0, 0), {})
+    said = Understanding(np.repeat(truth, kind.shown), np.repeat(truth, kind.shown), WordOrder(0, 0))
     ours = VocabularyReader((sign_features(shown),), said, len(truth))
     space = SignSpace(prototypes)
     papers = NearestSignReader(space, space.embed_all(shown)[:, None], said, len(truth))

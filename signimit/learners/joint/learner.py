@@ -9,23 +9,22 @@ are compared by the best explanation that each allows.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache, partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import softmax
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import InvalidInputError
 from signimit.grouping import canonical_labels
 from signimit.inference import WordOrder
-from signimit.learners.base import Understanding
+from signimit.learners.base import Belief, Learner, Understanding
 from signimit.learners.joint.distance_model import DRAWINGS, SIGNS, DistanceModel
-from signimit.learners.joint.drawing_distance import compare_drawings, make_drawing
-from signimit.learners.joint.incremental import extended_distances
-from signimit.learners.joint.place_evidence import common_place_evidence
+from signimit.learners.joint.distances import Distances, extend_distances, measure_distances
 from signimit.learners.joint.search import (
     MOVEMENT_PRICE,
     Explanation,
@@ -36,26 +35,29 @@ from signimit.learners.joint.search import (
     merge_groups,
     pairs_of_equals,
 )
-from signimit.learners.joint.sign_distance import VocabularyReader, sign_distances, sign_features
+from signimit.learners.joint.sign_distance import VocabularyReader, sign_features
 from signimit.learners.joint.split_movements import split_movements
+from signimit.validation import finite_array
 
 _INITIAL_SCALES = (-1.4, -1.2, -1.0)  # typical log distances of equal drawings to start from
 _MAX_ITERATIONS = 2
 _TEMPERATURE = 3.0  # pairs are not independent: their summed evidence is this much too sure
 
 
-class Distances(NamedTuple):
-    """All that the learner looks at.
+class JointEvidence(NamedTuple):
+    """What the learner measured.
 
     Attributes:
-        drawings: Distances of drawings in all pairs of frames, shape (N, N, O, O).
-        signs: Distances of signs at each place of the utterance, shape (W, N, N).
-        place: Evidence of each drawing's place for each object, shape (N, O), nats.
+        distances: Distances of drawings in all pairs of frames, shape (N, N, O, O).
+        sign_distances: Distances of signs at each place of the utterance, shape (W, N, N).
+        place_evidence: Evidence of each drawing's place for each object, shape (N, O), nats.
+        scale: Typical log distances of equal drawings and signs in this session, shape (2,).
     """
 
-    drawings: NDArray[np.float64]
-    signs: NDArray[np.float64]
-    place: NDArray[np.float64]
+    distances: NDArray[np.float64]
+    sign_distances: NDArray[np.float64]
+    place_evidence: NDArray[np.float64]
+    scale: NDArray[np.float64]
 
 
 class Scale(NamedTuple):
@@ -75,7 +77,7 @@ class Hypothesis(NamedTuple):
 
 
 @dataclass(frozen=True)
-class JointLearner:
+class JointLearner(Learner):
     """Explains all demonstrations at once; needs no prototypes.
 
     Attributes:
@@ -96,9 +98,15 @@ class JointLearner:
         """Take one more demonstration, the last, into account.
 
         Only its distances are measured. The search, which costs less, starts anew: early mistakes are not kept.
+
+        Raises:
+            InvalidInputError: If the understanding keeps no distances.
         """
-        seen = Distances(*extended_distances(demonstrations, understanding.diagnostics))
-        return _best_hypothesis(EvidenceCache(seen, self.drawings, self.signs))
+        evidence = understanding.evidence
+        if not isinstance(evidence, JointEvidence):
+            raise InvalidInputError("diagnostics", "distances, which the joint learner measures", "none")
+        known = Distances(evidence.distances, evidence.sign_distances, evidence.place_evidence)
+        return _best_hypothesis(EvidenceCache(extend_distances(demonstrations, known), self.drawings, self.signs))
 
     def reader(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
@@ -107,15 +115,16 @@ class JointLearner:
         features = [sign_features([d.signs[w] for d in demonstrations]) for w in range(len(demonstrations[0].signs))]
         return VocabularyReader(tuple(features), understanding, demonstrations.objects.shape[1])
 
-
-def measure_distances(demonstrations: DemonstrationSet) -> Distances:
-    """Measure all distances of a set of demonstrations."""
-    traces = [make_drawing(d.hand, d.times) for d in demonstrations]
-    objects = demonstrations.objects
-    words = len(demonstrations[0].signs)
-    signs = [sign_distances(sign_features([d.signs[w] for d in demonstrations])) for w in range(words)]
-    place = common_place_evidence(np.stack([t.centre for t in traces]), objects)
-    return Distances(compare_drawings(traces, objects), np.stack(signs), place)
+    def restore_evidence(
+        self, demonstrations: DemonstrationSet, arrays: Mapping[str, NDArray[Any]]
+    ) -> JointEvidence | None:
+        """Make the evidence again from the arrays of a model file; None where some are missing."""
+        count, frames, words = len(demonstrations), demonstrations.objects.shape[1], len(demonstrations[0].signs)
+        shapes = ((count, count, frames, frames), (words, count, count), (count, frames), (2,))
+        if not set(JointEvidence._fields) <= arrays.keys():
+            return None
+        named = zip(JointEvidence._fields, shapes, strict=True)
+        return JointEvidence(*(finite_array(arrays[name], name.replace("_", " "), shape) for name, shape in named))
 
 
 def _best_hypothesis(weighing: EvidenceCache) -> Understanding:
@@ -221,13 +230,7 @@ def _understanding(weighing: EvidenceCache, chosen: Hypothesis, orders: dict[Wor
     order_evidence = np.full((words, words), -np.inf)
     for order, score in orders.items():
         order_evidence[order] = score
-    diagnostics = {
-        "distances": seen.drawings,
-        "sign_distances": seen.signs,
-        "place_evidence": seen.place,
-        "focus_probability": belief.sum(axis=1),
-        "movement_probability": belief.sum(axis=2),
-        "word_order_evidence": order_evidence,
-        "scale": np.array(chosen.scale),
-    }
-    return Understanding(labels, focus, chosen.order, diagnostics)
+    evidence = JointEvidence(seen.drawings, seen.signs, seen.place, np.array(chosen.scale))
+    return Understanding(
+        labels, focus, chosen.order, Belief(belief.sum(axis=1), belief.sum(axis=2), order_evidence), evidence
+    )

@@ -105,7 +105,7 @@ class VocabularyReader:
 
     def read(self, signs: Sequence[ArrayLike]) -> Reading:
         """Read an utterance."""
-        labels, focus, order, _ = self.understanding
+        labels, focus, order = self.understanding[:3]
         movement = self._weigh(signs[order.movement], order.movement, labels, int(labels.max()) + 1)
         return Reading(movement, self._weigh(signs[order.focus], order.focus, focus, self.objects))
 

@@ -42,7 +42,7 @@ class Teller(Listener):
         super().__init__(kit, truth)
         language = truth.shown.language
         order = WordOrder(language.focus_word, language.movement_word)
-        self.understanding = Understanding(truth.shown.movement, truth.shown.focus, order, {})
+        self.understanding = Understanding(truth.shown.movement, truth.shown.focus, order)
 
 
 @pytest.fixture(autouse=True)

@@ -30,7 +30,7 @@ def test_the_rand_index_of_known_groupings() -> None:
 
 
 def understood(**changes: object) -> Understanding:
-    right = Understanding(TRUTH.movement, TRUTH.focus, WordOrder(0, 1), {})
+    right = Understanding(TRUTH.movement, TRUTH.focus, WordOrder(0, 1))
     return right._replace(**changes)  # type: ignore[arg-type]
 
 

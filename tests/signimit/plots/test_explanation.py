@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from signimit import ImitationModel, InvalidInputError, learn
 from signimit.benchmark.studies.cells import Cell, compose_session
+from signimit.learners.base import Belief
 from signimit.plots.explanation import draw_explanation
 
 SESSION = compose_session(Cell(movements=3, objects=2, repetitions=1), 1)
@@ -25,7 +26,6 @@ def model() -> ImitationModel:
 
 def doubting(model: ImitationModel, number: int) -> ImitationModel:
     """The same model, in doubt about the object and the movement of one demonstration."""
-    known = model.understanding.diagnostics
 
     def mixed(belief: NDArray[np.float64]) -> NDArray[np.float64]:
         changed = belief.copy()
@@ -33,9 +33,11 @@ def doubting(model: ImitationModel, number: int) -> ImitationModel:
         changed[number, :2] = 0.6, 0.4
         return changed
 
-    changes = {name: mixed(known[name]) for name in ("focus_probability", "movement_probability")}
-    understanding = model.understanding._replace(diagnostics={**known, **changes})
-    return dataclasses.replace(model, understanding=understanding)
+    belief = model.understanding.belief
+    assert belief is not None
+    focus, movement, orders = belief
+    doubtful = Belief(mixed(focus), mixed(movement), orders)
+    return dataclasses.replace(model, understanding=model.understanding._replace(belief=doubtful))
 
 
 def panels(figure: Figure) -> list[Axes]:

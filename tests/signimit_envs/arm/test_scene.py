@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signimit
-from signimit.summary import object_name
+from signimit.explanation import object_name
 from signimit_envs.arm.inverse_kinematics import HandController
 from signimit_envs.arm.scene import OBJECT_COUNTS, OBJECT_NAMES, WORKSPACE, compile_scene, object_bodies
 

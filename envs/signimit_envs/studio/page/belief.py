@@ -7,11 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.asking import Query
-from signimit.explanation import Reasons
+from signimit.explanation import Query, Reasons, object_name, ordinal
 from signimit.learning import ImitationModel
 from signimit.signs import normalised_sign, resampled_path
-from signimit.summary import object_name, ordinal
 
 _SIGN_POINTS, _DRAWING_POINTS = 2, 64  # every second of a sign's 64 points; points of a drawing
 _MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen

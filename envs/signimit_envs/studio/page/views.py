@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from signimit.summary import object_name
+from signimit.explanation import object_name
 from signimit.teaching.languages import Language, Request
 from signimit_envs.studio.arm.live_state import LiveState
 from signimit_envs.studio.page.belief import sign_json, understood_text

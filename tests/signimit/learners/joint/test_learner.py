@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from signimit import Demonstration, DemonstrationSet, ImitationModel, WordOrder, learn
 from signimit.learners.joint.distance_model import DRAWINGS, SIGNS
-from signimit.learners.joint.learner import EvidenceCache, Scale, measure_distances
+from signimit.learners.joint.distances import measure_distances
+from signimit.learners.joint.learner import EvidenceCache, Scale
 from signimit.learners.joint.search import score_explanation
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.composition import GroundTruth, Language, Request, compose_demonstrations, compose_utterance

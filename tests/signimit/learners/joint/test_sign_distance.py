@@ -29,7 +29,7 @@ def slow_distance(p: Array, q: Array) -> float:
 def reader(signs: list[Array], objects: int = 3) -> VocabularyReader:
     features = sign_features(signs)
     meaning = np.repeat([0, 1, 2], 3)
-    return VocabularyReader((features, features), Understanding(meaning, meaning, WordOrder(0, 1), {}), objects)
+    return VocabularyReader((features, features), Understanding(meaning, meaning, WordOrder(0, 1)), objects)
 
 
 def test_the_distance_of_signs_is_that_of_plain_loops(digits: list[Array]) -> None:

@@ -1,4 +1,4 @@
-"""Model files that are not what they say."""
+"""Model files: those of version 0.1.0, and those that are not what they say."""
 
 from pathlib import Path
 
@@ -10,6 +10,8 @@ from signimit.teaching.composition import compose_demonstrations
 from signimit.teaching.languages import PAPER_LANGUAGE
 from signimit.teaching.people import synthetic_library
 
+OLD_MODELS = Path(__file__).parents[2] / "fixtures" / "0.1.0" / "models"
+
 
 @pytest.fixture(scope="module")
 def model() -> ImitationModel:
@@ -17,6 +19,15 @@ def model() -> ImitationModel:
     labels = (*PAPER_LANGUAGE.focus_signs, *PAPER_LANGUAGE.movement_signs)
     signs, movements = (synthetic_library(names, rng=rng) for names in (labels, PAPER_LANGUAGE.movements))
     return learn(compose_demonstrations(PAPER_LANGUAGE, signs, movements, rng)[0])
+
+
+@pytest.mark.parametrize("path", sorted(p for p in OLD_MODELS.glob("*.npz") if "questions" not in p.stem), ids=lambda path: path.stem)
+def test_a_model_of_version_0_1_0_loads_and_is_written_with_the_same_arrays(path: Path, tmp_path: Path) -> None:
+    ImitationModel.load(path).save(tmp_path / "again.npz")
+    with np.load(path) as old, np.load(tmp_path / "again.npz") as new:
+        assert sorted(new.files) == sorted(old.files)
+        for name in old.files:
+            np.testing.assert_array_equal(new[name], old[name])
 
 
 @pytest.mark.parametrize("name", ["focus_probability", "movement_probability", "word_order_evidence"])

@@ -67,7 +67,7 @@ def test_what_does_not_fit_is_refused() -> None:
         paper.observe(demos[3])
     with pytest.raises(InvalidInputError, match="probabilities"):
         paper.explain()
-    bare = replace(model, understanding=model.understanding._replace(diagnostics={}))
+    bare = replace(model, understanding=model.understanding._replace(evidence=None))
     with pytest.raises(InvalidInputError, match="diagnostics: expected distances"):
         bare.observe(demos[3])
 

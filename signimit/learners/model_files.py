@@ -13,7 +13,7 @@ from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameE
 from signimit.inference import WordOrder
 from signimit.io.archive import read_archive, write_archive
 from signimit.learners import get_learner
-from signimit.learners.base import Understanding
+from signimit.learners.base import Belief, Learner, Understanding
 from signimit.policies import POLICY_KINDS
 from signimit.signs import prototype_points
 from signimit.strokes import cut, flatten
@@ -57,7 +57,7 @@ def read_model(path: str | os.PathLike[str]) -> ModelParts:
         method, kind = str(meta["method"]), str(meta["policy"])
         learner = get_learner(method)
         check_policy_kind(kind)
-        understanding = _checked_understanding(arrays, demos)
+        understanding = _checked_understanding(arrays, demos, learner)
         prototypes = None
         if "prototypes" in arrays:
             prototypes = prototype_points(cut(arrays["prototypes"], "prototypes", arrays["prototype_offsets"]))
@@ -92,19 +92,21 @@ def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any
     return {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
 
 
-def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet) -> Understanding:
+def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet, learner: Learner) -> Understanding:
     count, frames, words = len(demos), demos.objects.shape[1], len(demos[0].signs)
     labels = _indices(arrays["labels"], "labels", (count,), count)
     if len(np.unique(labels)) != labels.max() + 1:
         raise InvalidInputError("labels", "movements numbered without gaps", f"{labels[:8].tolist()}")
     focus = _indices(arrays["focus"], "focus", (count,), frames)
     order = _indices(arrays["word_order"], "word order", (2,), words)
-    diagnostics = _part(arrays, "diagnostics__")
-    shapes = {"focus_probability": (count, frames), "movement_probability": (count, int(labels.max()) + 2)}
-    shapes["word_order_evidence"] = (words, words)
-    for name in shapes.keys() & diagnostics.keys():
-        float_array(diagnostics[name], name.replace("_", " "), shapes[name])
-    return frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), diagnostics))
+    known = _part(arrays, "diagnostics__")
+    shapes = ((count, frames), (count, int(labels.max()) + 2), (words, words))
+    belief = None
+    if set(Belief._fields) <= known.keys():
+        named = zip(Belief._fields, shapes, strict=True)
+        belief = Belief(*(float_array(known[name], name.replace("_", " "), shape) for name, shape in named))
+    evidence = learner.restore_evidence(demos, known)
+    return frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), belief, evidence))
 
 
 def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:
