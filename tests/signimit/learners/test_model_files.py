@@ -10,7 +10,8 @@ from signimit.teaching.composition import compose_demonstrations
 from signimit.teaching.languages import PAPER_LANGUAGE
 from signimit.teaching.people import synthetic_library
 
-OLD_MODELS = Path(__file__).parents[2] / "fixtures" / "0.1.0" / "models"
+FOLDER = Path(__file__).parents[2] / "fixtures" / "0.1.0" / "models"
+OLD_MODELS = sorted([*FOLDER.glob("joint*.npz"), *FOLDER.glob("paper*.npz")])
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +22,7 @@ def model() -> ImitationModel:
     return learn(compose_demonstrations(PAPER_LANGUAGE, signs, movements, rng)[0])
 
 
-@pytest.mark.parametrize("path", sorted(p for p in OLD_MODELS.glob("*.npz") if "questions" not in p.stem), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", OLD_MODELS, ids=lambda path: path.stem)
 def test_a_model_of_version_0_1_0_loads_and_is_written_with_the_same_arrays(path: Path, tmp_path: Path) -> None:
     ImitationModel.load(path).save(tmp_path / "again.npz")
     with np.load(path) as old, np.load(tmp_path / "again.npz") as new:
