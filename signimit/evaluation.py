@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.signs import resampled_path
-from signimit.similarity import nearest_points
+from signimit.paths import headings, nearest_distances, nearest_points, resample_path, step_lengths, unit_tangents
 from signimit.validation import finite_array, item_list, moving_points
 
 TOLERANCE = 0.35  # path error up to which a path counts as a movement, in half sizes of what was shown
@@ -53,8 +52,8 @@ class Template(NamedTuple):
 def make_template(loop: ArrayLike) -> Template:
     """Prepare one shown drawing, shape (T, 2), m, in the object's frame."""
     points = moving_points(loop, "template")
-    resampled = resampled_path(points, _TEMPLATE_SAMPLES)
-    return Template(resampled, _directions(resampled), float(np.abs(points).max()))
+    resampled = resample_path(points, _TEMPLATE_SAMPLES)
+    return Template(resampled, unit_tangents(resampled), float(np.abs(points).max()))
 
 
 def performed(path: ArrayLike, objects: ArrayLike, templates: Sequence[Sequence[ArrayLike]]) -> Performance:
@@ -105,9 +104,9 @@ def prepare_templates(templates: Sequence[Sequence[ArrayLike]]) -> list[list[Tem
 def settled_part(path: NDArray[np.float64]) -> NDArray[np.float64] | None:
     """Return the part of a path that is judged, resampled to (200, 2), or None if the hand rested in it."""
     tail = path[int(len(path) * (1 - SETTLED) + 1e-9) :]
-    if len(tail) < 2 or np.hypot(*np.diff(tail, axis=0).T).sum() < LEAST_WAY:
+    if len(tail) < 2 or step_lengths(tail).sum() < LEAST_WAY:
         return None
-    return resampled_path(tail, _PATH_SAMPLES)
+    return resample_path(tail, _PATH_SAMPLES)
 
 
 def movement_error(tail: NDArray[np.float64], drawings: Sequence[Template]) -> float:
@@ -118,27 +117,17 @@ def movement_error(tail: NDArray[np.float64], drawings: Sequence[Template]) -> f
 def _path_error(tail: NDArray[np.float64], drawing: Template) -> float:
     there = nearest_points(tail, drawing.points)
     gap_there = np.hypot(*(tail - drawing.points[there]).T).mean()
-    gap_back = _gaps_back(tail, drawing).mean()
-    cosines = (_directions(tail) * drawing.directions[there]).sum(axis=1)
+    gap_back = nearest_distances(drawing.points, tail).mean()
+    cosines = (unit_tangents(tail) * drawing.directions[there]).sum(axis=1)
     gaps = (gap_there + gap_back) / (2 * drawing.half_size)
     return float(gaps + _DIRECTION_WEIGHT * (1 - cosines).mean())
 
 
-def _gaps_back(tail: NDArray[np.float64], drawing: Template) -> NDArray[np.float64]:
-    """Distance from each point of the drawing to the path, m."""
-    return np.asarray(np.hypot(*(drawing.points - tail[nearest_points(drawing.points, tail)]).T))
-
-
 def _coverage(tail: NDArray[np.float64], drawing: Template) -> float:
-    return float((_gaps_back(tail, drawing) <= _COVERED * drawing.half_size).mean())
-
-
-def _directions(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    along = np.gradient(points, axis=0)
-    return np.asarray(along / (np.linalg.norm(along, axis=1, keepdims=True) + 1e-12))
+    return float((nearest_distances(drawing.points, tail) <= _COVERED * drawing.half_size).mean())
 
 
 def count_turns(path: ArrayLike, centre: ArrayLike) -> float:
     """Count the signed revolutions of a path, shape (T, 2), about a point, counter-clockwise positive."""
-    x, y = (finite_array(path, "path", (None, 2)) - finite_array(centre, "centre", (2,))).T
-    return float(np.diff(np.unwrap(np.arctan2(y, x))).sum() / (2 * np.pi)) if len(x) else 0.0
+    seen = finite_array(path, "path", (None, 2)) - finite_array(centre, "centre", (2,))
+    return float(np.diff(np.unwrap(headings(seen))).sum() / (2 * np.pi)) if len(seen) else 0.0

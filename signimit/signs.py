@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
+from signimit.paths import box_centre, resample_path
 from signimit.strokes import Stroke
 from signimit.validation import finite_array, item_list, moving_points
 
@@ -94,16 +95,9 @@ def normalised_sign(sign: ArrayLike, samples: int = SAMPLES) -> NDArray[np.float
 
 
 def _normalised(points: NDArray[np.float64], samples: int = SAMPLES) -> NDArray[np.float64]:
-    resampled = resampled_path(points / np.abs(points).max(), samples)
-    centred = resampled - (resampled.max(0) + resampled.min(0)) / 2
+    resampled = resample_path(points / np.abs(points).max(), samples)
+    centred = resampled - box_centre(resampled)
     return np.asarray(centred / np.abs(centred).max())
-
-
-def resampled_path(points: NDArray[np.float64], samples: int) -> NDArray[np.float64]:
-    """Resample a path, shape (T, 2), to ``samples`` points evenly spaced along its length."""
-    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    wanted = np.linspace(0.0, length[-1], samples)
-    return np.column_stack([np.interp(wanted, length, points[:, axis]) for axis in (0, 1)])
 
 
 def prototype_points(prototypes: Sequence[Stroke | ArrayLike]) -> tuple[NDArray[np.float64], ...]:

@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.acceleration import kernels_for
 from signimit.exceptions import InvalidInputError
+from signimit.paths import nearest_points
 from signimit.validation import finite_array, item_list, moving_points
 
 DISTANCE_FLOOR = 1e-6  # rad²; keeps γ finite where two paths agree to the last bit
-_BLOCK = 2**16  # numbers of a distance block: small enough for the second-level cache
 _SECONDS = 1e-9  # that numpy takes for a pair of points
 
 
@@ -109,22 +109,6 @@ def _one_way_distances(directed: list[DirectedPoints], objects: NDArray[np.float
         sums = np.add.reduceat(gaps * gaps, starts)
         out[:, k] = (sums / lengths).reshape(count, frames, frames)
     return out
-
-
-def nearest_points(queries: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.intp]:
-    """Return for each query, shape (Q, 2), the index of the nearest of points, shape (n, 2)."""
-    centre = points.mean(axis=0)  # |p|² - 2 p·q cancels badly far from the origin
-    local = points - centre
-    target = np.vstack([-2.0 * local.T, (local * local).sum(1)])
-    nearest = np.empty(len(queries), dtype=np.intp)
-    rows = max(1, _BLOCK // len(points))
-    padded = np.column_stack([queries - centre, np.ones(len(queries))])
-    buffer = np.empty((rows, len(points)))
-    for start in range(0, len(queries), rows):
-        block = padded[start : start + rows]
-        values = np.matmul(block, target, out=buffer[: len(block)])
-        values.argmin(axis=1, out=nearest[start : start + rows])
-    return nearest
 
 
 def check_distances(distances: ArrayLike) -> NDArray[np.float64]:

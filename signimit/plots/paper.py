@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import MissingDependencyError
 from signimit.explanation import object_name
+from signimit.paths import box_centre, half_size
 
 try:
     from matplotlib.figure import Figure
@@ -198,8 +199,7 @@ def _panels(
 
 def draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
     """Draw a sign, shape (T_s, 2), as large as the panel."""
-    centred = sign - (sign.max(axis=0) + sign.min(axis=0)) / 2
-    panel.plot(*(centred / np.abs(centred).max()).T, color="#1b1b1b", linewidth=1.3)
+    panel.plot(*((sign - box_centre(sign)) / half_size(sign)).T, color="#1b1b1b", linewidth=1.3)
     panel.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), aspect="equal")
     for spine in panel.spines.values():
         spine.set_visible(False)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit import paths
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke
 
@@ -58,14 +59,13 @@ def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) ->
         half_size: Half of the larger side of its bounding box on the table, m.
         end_at_object: Put the last point at the origin, not the centre of the bounding box.
     """
-    low, high = stroke.points.min(axis=0), stroke.points.max(axis=0)
-    origin = stroke.points[-1] if end_at_object else (low + high) / 2.0
-    points = (stroke.points - origin) * (2.0 * half_size / float((high - low).max()))
+    origin = stroke.points[-1] if end_at_object else paths.box_centre(stroke.points)
+    points = (stroke.points - origin) * (half_size / paths.half_size(stroke.points))
     times = stroke.times - stroke.times[0]
-    length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    length = float(paths.arc_lengths(points)[-1])
     duration = float(np.clip(times[-1], length / DRAWING_SPEED[1], length / DRAWING_SPEED[0]))
     ticks = np.linspace(0.0, times[-1], max(2, round(duration / CONTROL_TIME) + 1))
-    return np.column_stack([np.interp(ticks, times, points[:, axis]) for axis in (0, 1)])
+    return paths.interpolate(ticks, times, points)
 
 
 def sample_times(count: int) -> NDArray[np.float64]:

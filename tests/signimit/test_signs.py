@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, SignSpace, Stroke, dtw_distance, normalised_sign, signs
-from signimit.signs import SAMPLES, pairwise_dtw, resampled_path
+from signimit.signs import SAMPLES, pairwise_dtw
 
 Array = NDArray[np.float64]
 BAR = np.array([[0.0, 0.0], [0.0, 1.0]])
@@ -96,11 +96,6 @@ def test_what_is_no_stroke_has_no_distance(a: Any, b: Any, sentence: str) -> Non
     with pytest.raises(InvalidInputError) as caught:
         dtw_distance(a, b)
     assert str(caught.value) == sentence
-
-
-def test_a_path_is_resampled_evenly_along_its_length() -> None:
-    path = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 0.0], [3.0, 1.0]])
-    assert resampled_path(path, 5).tolist() == [[0, 0], [1, 0], [2, 0], [3, 0], [3, 1]]
 
 
 @properties

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, maximum_similarities, policy_distances, policy_similarities
-from signimit.similarity import DISTANCE_FLOOR, directed_points, nearest_points
+from signimit.similarity import DISTANCE_FLOOR, directed_points
 
 Array = NDArray[np.float64]
 scenes = st.tuples(st.integers(1, 4), st.integers(1, 3), st.integers(0, 10_000))
@@ -124,14 +124,6 @@ def test_a_resting_hand_has_no_direction() -> None:
     assert directed_points(resting).positions.tolist() == [[0, 0], [1, 0]]
     assert directed_points(resting).angles.tolist() == [0.0, np.pi / 2]
     assert policy_distances([moving, resting], np.zeros((2, 1, 2)))[0, 1, 0, 0] == 0.0
-
-
-def test_nearest_points_are_those_of_the_definition_far_from_the_origin_too() -> None:
-    rng = np.random.default_rng(0)
-    for offset in (0.0, 1e6):
-        queries, points = rng.normal(size=(300, 2)) + offset, rng.normal(size=(40, 2)) + offset
-        gaps = np.linalg.norm(queries[:, None] - points, axis=-1)
-        assert (nearest_points(queries, points) == gaps.argmin(axis=1)).all()
 
 
 def test_similarity_is_the_inverse_and_stays_finite() -> None:

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from signimit import paths
+
 PAPER, INK, FAINT, MARK = (250, 249, 246), (27, 27, 27), (200, 198, 192), (230, 159, 0)
 Signs = Sequence[NDArray[np.float64]]
 
@@ -45,9 +47,8 @@ def draw_sign(
     whole: NDArray[np.float64],
 ) -> None:
     """Draw a sign as far as it goes, scaled so that the whole of it fills a square about ``centre``, pixels."""
-    low, high = whole.min(axis=0), whole.max(axis=0)
-    scale = half_size / max(float((high - low).max()) / 2, 1e-12)
-    places = (sign - (low + high) / 2) * (scale, -scale) + centre
+    scale = half_size / max(paths.half_size(whole), 1e-12)
+    places = (sign - paths.box_centre(whole)) * (scale, -scale) + centre
     pen = max(2, round(half_size / 14))
     flat = [(float(x), float(y)) for x, y in places]
     if len(flat) > 1:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
+from signimit.paths import half_size
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_prototypes, compose_utterance
 from signimit.teaching.languages import Language, Request
@@ -219,7 +220,7 @@ def wavering(library: StrokeLibrary, rng: np.random.Generator, noise: float = NO
     """
     strokes = []
     for stroke in library.strokes:
-        half = np.ptp(stroke.points, axis=0).max() / 2
+        half = half_size(stroke.points)
         share = np.linspace(0, 1, len(stroke.points))[:, None, None]
         waves = np.sin(2 * np.pi * (rng.uniform(0.5, 4, (3, 2)) * share + rng.random((3, 2)))).sum(axis=1)
         strokes.append(Stroke(stroke.points + noise * half * waves * np.sqrt(2 / 3), stroke.times))

@@ -18,6 +18,7 @@ from scipy.io import loadmat
 
 from signimit.benchmark.studies.path_quality import move_hands
 from signimit.exceptions import FileFormatError, InvalidInputError, MissingDependencyError
+from signimit.paths import interpolate, step_lengths
 from signimit.policies.base import Array, Policy, check_demonstrations
 from signimit.signs import dtw_distance
 
@@ -101,7 +102,7 @@ def find_lasa(folder: str | os.PathLike[str] | None = None) -> Iterator[LasaShap
 def reproduce(policy: Policy, path: Array, times: Array) -> Array:
     """Move a hand from where a demonstration began, shape (n, 2), m, until it has arrived or is late."""
     hand = move_hands(policy, path[:1], LONGER * float(times[-1] - times[0]))[:, 0]
-    moves = np.flatnonzero(np.hypot(*np.diff(hand, axis=0).T) > 1e-6)
+    moves = np.flatnonzero(step_lengths(hand) > 1e-6)
     return hand[: moves[-1] + 2] if len(moves) else hand[:2]
 
 
@@ -122,4 +123,4 @@ def swept_area(a: Array, b: Array) -> float:
 
 def _even(path: Array) -> Array:
     at, known = np.linspace(0, 1, SAMPLES), np.linspace(0, 1, len(path))
-    return np.stack([np.interp(at, known, path[:, axis]) for axis in (0, 1)], axis=1)
+    return interpolate(at, known, path)

@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from signimit.evaluation import TOLERANCE, make_template, movement_error, settled_part
+from signimit.paths import nearest_distances, nearest_points, resample_path, step_lengths
 from signimit.policies.base import CONTROL_PERIOD, Array, Policy, StatefulPolicy
-from signimit.signs import resampled_path
 
 REACHED = 0.15  # half sizes from the drawing at which a detour ends
 FAR = 0.5  # half sizes from the drawing that a detour begins at, at least
@@ -77,29 +76,29 @@ def judge_path(path: Array, loops: Sequence[Array]) -> PathQuality:
 
 def corner_gap(settled: Array, loop: Array) -> float:
     """Return how far the path stays from the loop's farthest-out points, in half sizes."""
-    points = resampled_path(loop, 200)
+    points = resample_path(loop, 200)
     corners = points[np.argsort(-np.hypot(*points.T))[:CORNER_POINTS]]
-    return float(_gaps(corners, settled).mean() / np.abs(loop).max())
+    return float(nearest_distances(corners, settled).mean() / np.abs(loop).max())
 
 
 def detour(path: Array, loop: Array) -> float:
     """Return the way to the loop over the straight way; NaN for a hand that began near it."""
     half_size = float(np.abs(loop).max())
-    gaps = _gaps(path, resampled_path(loop, 200))
+    gaps = nearest_distances(path, resample_path(loop, 200))
     if gaps[0] <= FAR * half_size:
         return float("nan")
     reached = gaps < REACHED * half_size
     arrival = int(reached.argmax()) if reached.any() else len(path) - 1
-    return float(np.hypot(*np.diff(path[: arrival + 1], axis=0).T).sum() / gaps[0])
+    return float(step_lengths(path[: arrival + 1]).sum() / gaps[0])
 
 
 def speed_agreement(settled: Array, loops: Sequence[Array]) -> tuple[float, float]:
     """Return correlation and ratio of the hand's speed and the demonstrators' mean speed at the same places."""
-    speed = np.hypot(*np.diff(settled, axis=0).T) / CONTROL_PERIOD
+    speed = step_lengths(settled) / CONTROL_PERIOD
     theirs = np.zeros(len(speed))
     for loop in loops:
         pace = np.hypot(*np.gradient(loop, CONTROL_PERIOD, axis=0).T)
-        theirs += pace[cKDTree(loop).query(settled[:-1])[1]] / len(loops)
+        theirs += pace[nearest_points(settled[:-1], loop)] / len(loops)
     if np.std(speed) == 0 or np.std(theirs) == 0:
         return float("nan"), float(speed.mean() / theirs.mean())
     return float(np.corrcoef(speed, theirs)[0, 1]), float(speed.mean() / theirs.mean())
@@ -110,12 +109,8 @@ def back_after_shove(path: Array, loops: Sequence[Array]) -> Array:
     begin = (len(path) - 1) // 2 + round(1.0 / CONTROL_PERIOD)
     window = path[begin : begin + round(1.0 / CONTROL_PERIOD)]
     half_size = float(np.abs(loops[0]).max())
-    near = _gaps(window, np.concatenate(loops)) < BACK * half_size
-    return np.asarray(near.all(axis=0), dtype=np.float64)
-
-
-def _gaps(points: Array, drawing: Array) -> Array:
-    return np.asarray(cKDTree(drawing).query(points)[0], dtype=np.float64)
+    gaps = nearest_distances(window.reshape(-1, 2), np.concatenate(loops)).reshape(window.shape[:-1])
+    return np.asarray((gaps < BACK * half_size).all(axis=0), dtype=np.float64)
 
 
 def arrives_and_stays(path: Array, goal: Array, tolerance: float) -> Array:

@@ -15,7 +15,7 @@ import numpy as np
 from signimit.demonstrations import DemonstrationSet
 from signimit.learners.joint.drawing_distance import compare_drawings, make_drawing
 from signimit.learning import learn
-from signimit.signs import resampled_path
+from signimit.paths import resample_path
 from signimit.similarity import policy_distances
 from signimit.teaching.composition import compose_demonstrations
 from signimit.teaching.languages import PAPER_LANGUAGE, Language
@@ -86,7 +86,7 @@ def _measure(count: int, step: str, code: str, seed: int) -> Measurement:
     if step == "learning":
         learn(demonstrations, policy="knn")
     elif step == "distances of policies":
-        policy_distances([resampled_path(path, POINTS) for path in demonstrations.paths], demonstrations.objects)
+        policy_distances([resample_path(path, POINTS) for path in demonstrations.paths], demonstrations.objects)
     else:
         compare_drawings([make_drawing(d.hand, d.times) for d in demonstrations], demonstrations.objects)
     seconds, worked = time.perf_counter() - start, time.process_time() - busy

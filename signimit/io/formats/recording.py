@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit.paths import step_lengths
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.validation import finite_array
 
@@ -71,7 +72,7 @@ def stroke_from_recording(recording: Recording) -> Stroke:
 
 def _bridge_steps(pieces: Sequence[NDArray[np.float64]], i: int) -> int:
     """Return in how many steps the gap after piece i is crossed."""
-    steps = np.linalg.norm(np.diff(np.concatenate(pieces), axis=0), axis=1)
+    steps = step_lengths(np.concatenate(pieces))
     median = float(np.median(steps)) or float(steps.max())
     gap = float(np.linalg.norm(pieces[i + 1][0] - pieces[i][-1]))
     return max(1, int(min(gap / median, MOST_STEPS)))

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from signimit.acceleration import kernels_for
 from signimit.learners.joint.reach import find_drawing_start
+from signimit.paths import arc_lengths, box_centre, half_size, interpolate, unit_tangents
 
 SAMPLES = 64
 _TIME_SHARE = 0.6  # samples are spread evenly over this share of time and the rest of way: slow corners count more
@@ -47,17 +48,13 @@ def make_drawing(path: NDArray[np.float64], times: NDArray[np.float64]) -> Drawi
     points, stamps = path[start:], times[start:]
     if not np.ptp(points, axis=0).any():
         points, stamps = path, times
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    way = np.concatenate([[0.0], np.cumsum(steps)])
+    way = arc_lengths(points)
     clock = (1 - _TIME_SHARE) * way / way[-1] + _TIME_SHARE * (stamps - stamps[0]) / (stamps[-1] - stamps[0])
     even = np.linspace(0.0, 1.0, SAMPLES)
-    places = np.column_stack([np.interp(even, clock, points[:, axis]) for axis in (0, 1)])
-    along = np.gradient(places, axis=0)
-    along /= np.linalg.norm(along, axis=1, keepdims=True) + 1e-12
+    places = interpolate(even, clock, points)
     pace = np.interp(even, clock, _log_pace(points, stamps))
-    manner = np.column_stack([_DIRECTION * along, _PACE * pace])
-    low, high = points.min(axis=0), points.max(axis=0)
-    return Drawing(places, manner, float((high - low).max() / 2), (low + high) / 2)
+    manner = np.column_stack([_DIRECTION * unit_tangents(places), _PACE * pace])
+    return Drawing(places, manner, half_size(points), box_centre(points))
 
 
 def _log_pace(points: NDArray[np.float64], times: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.signs import resampled_path
+from signimit.paths import arc_lengths, half_size, resample_path, step_lengths, unit_tangents
 
 _SAMPLES = 200
 _NEAR = 0.3  # half sizes; nearer than this, in the same direction, is a return
@@ -26,31 +26,25 @@ def find_drawing_start(path: NDArray[np.float64]) -> int:
     Returns:
         Index of the first sample of the drawing, 0 if the whole path is drawing.
     """
-    points = resampled_path(path, _SAMPLES)
-    returns = _returns(points, _half_size(points[_SAMPLES // 3 :]))
+    points = resample_path(path, _SAMPLES)
+    returns = _returns(points, half_size(points[_SAMPLES // 3 :]))
     surplus = np.concatenate([[0], np.cumsum(np.where(returns, 1, -1))])
     start = int(np.argmin(surplus[: int(_LONGEST_REACH * _SAMPLES)]))
     if returns[start:].mean() < 0.5:
         return 0
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    way = arc_lengths(path)
     first = int(np.searchsorted(way, start / _SAMPLES * way[-1]))
     return min(first, len(path) - 2)
 
 
-def _half_size(points: NDArray[np.float64]) -> float:
-    return float(np.ptp(points, axis=0).max() / 2)
-
-
-def _returns(points: NDArray[np.float64], half_size: float) -> NDArray[np.bool_]:
-    """Mark the points, shape (n, 2), that the path comes back to."""
-    if half_size == 0.0:
+def _returns(points: NDArray[np.float64], unit: float) -> NDArray[np.bool_]:
+    """Mark the points, shape (n, 2), that the path comes back to; ``unit`` is the drawing's half size."""
+    if unit == 0.0:
         return np.zeros(len(points), dtype=bool)
-    along = np.gradient(points, axis=0)
-    along /= np.linalg.norm(along, axis=1, keepdims=True) + 1e-12
-    state = np.column_stack([points / (_NEAR * half_size), along])
+    state = np.column_stack([points / (_NEAR * unit), unit_tangents(points)])
     squares = (state * state).sum(axis=1)
     gaps = squares[:, None] - 2 * state @ state.T + squares
-    step = np.hypot(*np.diff(points, axis=0).T).sum() / len(points)
+    step = step_lengths(points).sum() / len(points)
     number = np.arange(len(points))
-    apart = np.abs(number[:, None] - number[None]) * step > _APART * half_size
+    apart = np.abs(number[:, None] - number[None]) * step > _APART * unit
     return np.asarray(np.where(apart, gaps, np.inf).min(axis=1) < 1.0)

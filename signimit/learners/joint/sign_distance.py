@@ -17,7 +17,7 @@ from scipy.special import logsumexp, softmax
 
 from signimit.acceleration import kernels_for
 from signimit.learners.base import Reading, Understanding
-from signimit.signs import resampled_path
+from signimit.paths import resample_path
 from signimit.validation import moving_points
 
 _SAMPLES = 32
@@ -40,7 +40,7 @@ def sign_features(signs: Sequence[ArrayLike]) -> NDArray[np.float64]:
 
 
 def _describe(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    path = resampled_path(_less_slanted(resampled_path(points / np.abs(points).max(), 2 * _SAMPLES)), _SAMPLES)
+    path = resample_path(_less_slanted(resample_path(points / np.abs(points).max(), 2 * _SAMPLES)), _SAMPLES)
     path = path - path.mean(axis=0)
     path /= np.sqrt((path * path).sum(axis=1).mean())
     along = np.gradient(path, axis=0)

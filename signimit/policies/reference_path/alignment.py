@@ -55,7 +55,7 @@ def _local_costs(paths: Sequence[Array], course: Array, closed: bool, scale: flo
     tangents = unit_tangents(course, closed)
     for d, path in enumerate(paths):
         gaps = cdist(path, course) / scale
-        turned = 1.0 - unit_tangents(path, closed=False) @ tangents.T
+        turned = 1.0 - unit_tangents(path) @ tangents.T
         local[: len(path), d] = np.minimum(gaps, FARTHEST_GAP) + DIRECTION_WEIGHT * turned
     return local
 

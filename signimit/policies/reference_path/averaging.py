@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.paths import SpacedPath, arc_lengths
+from signimit.paths import TimedPath, arc_lengths
 from signimit.policies.base import Array
 
 UNLIKE = 1.5  # passes further from the median pass than so many typical distances count less
@@ -44,7 +44,7 @@ class MeanPass(NamedTuple):
     support: Array
 
 
-def cut_passes(path: SpacedPath, phases: NDArray[np.int64], nodes: int, shortest: float = 0.0) -> Iterator[Pass]:
+def cut_passes(path: TimedPath, phases: NDArray[np.int64], nodes: int, shortest: float = 0.0) -> Iterator[Pass]:
     """Cut an aligned demonstration into its rounds.
 
     Args:
@@ -66,7 +66,7 @@ def cut_passes(path: SpacedPath, phases: NDArray[np.int64], nodes: int, shortest
         yield Pass(position, speeds)
 
 
-def _by_phase(path: SpacedPath, phases: NDArray[np.int64]) -> tuple[int, Array, Array]:
+def _by_phase(path: TimedPath, phases: NDArray[np.int64]) -> tuple[int, Array, Array]:
     """Return the first phase, positions at it and every phase after, and the speed from each to the next."""
     drawn = phases >= 0
     first, offset = int(phases[drawn][0]), phases[drawn] - phases[drawn][0]

@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from signimit.paths import headings, step_lengths, wrap_angles
 from signimit.policies.base import Array
 
 AROUND = 1.0  # half sizes from the first node, which is where the model's drawing ended
@@ -45,7 +46,7 @@ def close_loop(points: Array, speeds: Array, scale: float) -> tuple[Array, Array
     Returns:
         The same for the mended course; unchanged if there is no jump.
     """
-    step = max(float(np.hypot(*np.diff(points, axis=0).T).mean()), 1e-6 * scale)
+    step = max(float(step_lengths(points).mean()), 1e-6 * scale)
     jump = _find_jump(points, step, scale)
     if jump is None:
         return points, speeds
@@ -63,11 +64,11 @@ def _find_jump(points: Array, step: float, scale: float) -> _Jump | None:
     side = max(round(min(SIDE * scale / step, nodes // 8)), 1)
     near = points[np.arange(-reach - side, reach + side + 1) % nodes]
     inner = near[side:-side]
-    entering, leaving = _angle(inner - near[: -2 * side]), _angle(near[2 * side :] - inner)
-    chords = _angle(inner[None] - inner[:, None])  # (i, j)
-    needed = _between(entering[:, None], chords) + _between(chords, leaving[None])
-    headings = _angle(np.diff(near, axis=0))
-    turned = np.concatenate([[0.0, 0.0], np.cumsum(_between(headings[:-1], headings[1:]))])
+    entering, leaving = headings(inner - near[: -2 * side]), headings(near[2 * side :] - inner)
+    chords = headings(inner[None] - inner[:, None])  # (i, j)
+    needed = _turning(entering[:, None], chords) + _turning(chords, leaving[None])
+    steps = headings(np.diff(near, axis=0))
+    turned = np.concatenate([[0.0, 0.0], np.cumsum(_turning(steps[:-1], steps[1:]))])
     drawn = turned[None, side + 1 : side + 1 + len(inner)] - turned[side:-side, None]  # at nodes i to j
     length = np.arange(len(inner)) - np.arange(len(inner))[:, None]
     gain = drawn - needed - LENGTH_COST * step / scale * length
@@ -82,7 +83,7 @@ def _bridge(a: Array, b: Array, jump: _Jump, step: float, scale: float) -> Array
     """Return points from a to b: both sides prolonged until they meet, or a smooth piece, or a straight one."""
     u, v = (np.array([np.cos(angle), np.sin(angle)]) for angle in (jump.entering, jump.leaving))
     chord = float(np.hypot(*(b - a)))
-    turn = float(_between(np.array(jump.entering), np.array(jump.leaving)))
+    turn = float(_turning(np.array(jump.entering), np.array(jump.leaving)))
     if turn <= CORNER + chord / scale:
         q = np.linspace(0.0, 1.0, max(round(chord / step), 1) + 1)[:, None]
         straight = a + (b - a) * (3 * q**2 - 2 * q**3)
@@ -103,15 +104,9 @@ def _calm(speeds: Array, count: int) -> Array:
     return calm
 
 
-def _angle(vectors: Array) -> Array:
-    angles: Array = np.arctan2(vectors[..., 1], vectors[..., 0])
-    return angles
-
-
-def _between(a: Array, b: Array) -> Array:
-    """Return the angle between two directions, in [0, pi]."""
-    difference: Array = np.abs((b - a + np.pi) % (2 * np.pi) - np.pi)
-    return difference
+def _turning(a: Array, b: Array) -> Array:
+    """Return the angle between two headings, in [0, π] rad."""
+    return np.asarray(np.abs(wrap_angles(b - a)))
 
 
 def _cross(a: Array, b: Array) -> float:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.paths import SpacedPath, arc_lengths, space_course, space_path
+from signimit.paths import TimedPath, arc_lengths, space_path, space_timed_path
 from signimit.policies.base import Array
 from signimit.policies.reference_path.alignment import PhaseAlignment, align_phases
 from signimit.policies.reference_path.averaging import MeanPass, cut_passes, mean_pass
@@ -55,7 +55,8 @@ class ReferencePath(NamedTuple):
 def learn_reference_path(demonstrations: Sequence[Stroke]) -> ReferencePath:
     """Find the shared course of demonstrations of one movement."""
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
-    coarse = [space_path(d, length / COARSE, LONGEST * COARSE).points for d in _spread(demonstrations, MOST_CHOSEN_BY)]
+    chosen = _spread(demonstrations, MOST_CHOSEN_BY)
+    coarse = [space_path(d.points, length / COARSE, most=LONGEST * COARSE) for d in chosen]
     scale = float(np.median([_half_size(path) for path in coarse]))
     points, closed = _choose_course(coarse, scale)
     return _refine_course(_spread(demonstrations, MOST_REFINED_BY), points, closed, scale)
@@ -106,11 +107,11 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
     """Align, average, and begin again with the average."""
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
     spacing = length / FINE
-    paths = [space_path(d, spacing, LONGEST * FINE) for d in demonstrations]
+    paths = [space_timed_path(d.points, d.times, spacing, LONGEST * FINE) for d in demonstrations]
     mean = MeanPass(points, points[:, 0], points[:, 0])
     alignments: list[PhaseAlignment] = []
     for _ in range(REFINEMENTS):
-        nodes = space_course(mean.points, spacing, closed, LONGEST * FINE)
+        nodes = space_path(mean.points, spacing, closed, LONGEST * FINE)
         alignments = align_phases([p.points for p in paths], nodes, closed, scale)
         shortest = SHORTEST_PASS if closed else 0.0
         passes = [
@@ -133,7 +134,7 @@ def _shared_part(mean: MeanPass, fewest: float) -> MeanPass:
     return MeanPass(*(values[kept] for values in mean))
 
 
-def _reach_speed(paths: Sequence[SpacedPath], alignments: Sequence[PhaseAlignment]) -> float:
+def _reach_speed(paths: Sequence[TimedPath], alignments: Sequence[PhaseAlignment]) -> float:
     """Return the mean speed before the drawing begins, m/s; that of everything if nobody had far to go."""
     begins = [int(np.argmax(a.phases >= 0)) for a in alignments]
     way = sum(arc_lengths(p.points)[i] for p, i in zip(paths, begins, strict=True))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from signimit.paths import interpolate
+from signimit.paths import box_centre, interpolate, step_lengths
 from signimit.policies.base import CONTROL_PERIOD, Array
 from signimit.policies.reference_path.reference_path import ReferencePath
 
@@ -17,7 +17,7 @@ CORNER_ALLOWANCE = 1.03  # times the size: a mean of corners that do not quite m
 def time_course(course: ReferencePath) -> Array:
     """Lay a course out in time: positions one control period apart, at the mean speed shown at each place."""
     line = np.concatenate([course.points, course.points[:1]]) if course.closed else course.points
-    steps = np.hypot(*np.diff(line, axis=0).T)
+    steps = step_lengths(line)
     shown = course.speeds[: len(steps)]
     mean = shown[shown > 0].mean() if (shown > 0).any() else course.reach_speed
     speeds = np.clip(np.where(shown > 0, shown, mean), SLOWEST * mean, FASTEST * mean)
@@ -26,6 +26,6 @@ def time_course(course: ReferencePath) -> Array:
     even = np.linspace(0.0, clock[-1], count + 1)
     if not course.closed:
         return interpolate(even, clock, line)
-    centre = (line.min(axis=0) + line.max(axis=0)) / 2
+    centre = box_centre(line)
     nodes: Array = centre + CORNER_ALLOWANCE * (interpolate(even[:-1], clock, line) - centre)
     return nodes

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError, UnknownNameError
+from signimit.paths import headings, wrap_angles
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.people.glyphs import GLYPHS, SIGNS, Glyph
 from signimit.teaching.people.kinematics import MotorPlan, total_duration, trajectory
@@ -151,11 +152,9 @@ class Person:
 
 def corners(targets: NDArray[np.float64], arcs: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Tell at which strokes the path turns a corner as they begin, shape (K,); the first does not."""
-    chords = np.diff(targets, axis=0)
-    heading = np.arctan2(chords[:, 1], chords[:, 0])
+    heading = headings(np.diff(targets, axis=0))
     turn = (heading[1:] - arcs[1:] / 2.0) - (heading[:-1] + arcs[:-1] / 2.0)
-    wrapped = (turn + np.pi) % (2.0 * np.pi) - np.pi
-    return np.concatenate([[False], np.abs(wrapped) > CORNER])
+    return np.concatenate([[False], np.abs(wrap_angles(turn)) > CORNER])
 
 
 def synthetic_library(

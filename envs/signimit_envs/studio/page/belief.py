@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from signimit.explanation import Query, Reasons, object_name, ordinal
 from signimit.learning import ImitationModel
-from signimit.signs import normalised_sign, resampled_path
+from signimit.paths import resample_path
+from signimit.signs import normalised_sign
 
 _SIGN_POINTS, _DRAWING_POINTS = 2, 64  # every second of a sign's 64 points; points of a drawing
 _MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen
@@ -83,7 +84,7 @@ def _movement_words(model: ImitationModel) -> list[dict[str, Any]]:
         {
             "movement": m,
             "strokes": _signs(model, word, model.labels == m),
-            "drawings": [_rounded(resampled_path(path, _DRAWING_POINTS)) for path in found.paths[-_MOST_EXAMPLES:]],
+            "drawings": [_rounded(resample_path(path, _DRAWING_POINTS)) for path in found.paths[-_MOST_EXAMPLES:]],
         }
         for m, found in enumerate(model.movements)
     ]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from signimit.paths import SpacedPath
+from signimit.paths import TimedPath
 from signimit.policies.reference_path.averaging import Pass, cut_passes, mean_pass
 
 
 def test_two_rounds_are_cut_where_the_phase_begins_anew() -> None:
-    path = SpacedPath(np.column_stack([np.arange(7.0), np.zeros(7)]), np.arange(7.0))
+    path = TimedPath(np.column_stack([np.arange(7.0), np.zeros(7)]), np.arange(7.0))
     first, second = cut_passes(path, np.array([-1, 1, 2, 3, 4, 5, -1]), 3)
     np.testing.assert_array_equal(first.points[:, 0], [np.nan, 1, 2])
     np.testing.assert_array_equal(second.points[:, 0], [3, 4, 5])
@@ -18,14 +18,14 @@ def test_two_rounds_are_cut_where_the_phase_begins_anew() -> None:
 
 
 def test_skipped_nodes_are_interpolated_and_repeated_ones_averaged() -> None:
-    path = SpacedPath(np.array([[0.0, 0], [2, 0], [4, 0], [6, 0]]), np.array([0.0, 1, 2, 3]))
+    path = TimedPath(np.array([[0.0, 0], [2, 0], [4, 0], [6, 0]]), np.array([0.0, 1, 2, 3]))
     (one,) = cut_passes(path, np.array([0, 0, 2, 3]), 4)
     np.testing.assert_allclose(one.points[:, 0], [1, 2.5, 4, 6])
     np.testing.assert_allclose(one.speeds[:3], 2)
 
 
 def test_too_short_a_pass_is_no_pass() -> None:
-    path = SpacedPath(np.column_stack([np.arange(5.0), np.zeros(5)]), np.arange(5.0))
+    path = TimedPath(np.column_stack([np.arange(5.0), np.zeros(5)]), np.arange(5.0))
     assert len(list(cut_passes(path, np.arange(5), 4, shortest=0.5))) == 1
 
 

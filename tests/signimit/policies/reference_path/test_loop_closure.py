@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from signimit.paths import space_course
+from signimit.paths import space_path
 from signimit.policies.reference_path.loop_closure import close_loop
 
 STEP = 0.004
@@ -16,7 +16,7 @@ SQUARE = np.array([[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]])
 
 
 def spaced(*corners: tuple[float, float]) -> NDArray[np.float64]:
-    return space_course(np.array(corners), STEP, closed=True)
+    return space_path(np.array(corners), STEP, closed=True)
 
 
 def mended(course: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -34,13 +34,13 @@ def notched_circle(depth: float) -> NDArray[np.float64]:
     """A circle whose stroke ends ``depth`` m further in than it begins."""
     angles = np.linspace(0.0, 2 * np.pi, 150)
     radius = 0.1 - depth * angles / (2 * np.pi)
-    return space_course(np.column_stack([radius * np.sin(angles), radius * np.cos(angles)]), STEP, closed=True)
+    return space_path(np.column_stack([radius * np.sin(angles), radius * np.cos(angles)]), STEP, closed=True)
 
 
 @pytest.mark.parametrize("corners", [3, 4, 5, 60])
 def test_polygons_are_left_alone_wherever_they_begin(corners: int) -> None:
     angles = 2 * np.pi * np.arange(corners) / corners
-    course = space_course(0.1 * np.column_stack([np.cos(angles), np.sin(angles)]), STEP, closed=True)
+    course = space_path(0.1 * np.column_stack([np.cos(angles), np.sin(angles)]), STEP, closed=True)
     for first in (0, 7, len(course) // 2):
         rolled = np.roll(course, first, axis=0)
         np.testing.assert_array_equal(mended(rolled), rolled)
@@ -48,7 +48,7 @@ def test_polygons_are_left_alone_wherever_they_begin(corners: int) -> None:
 
 def test_a_star_is_left_alone() -> None:
     angles = 2 * np.pi * np.arange(5) * 2 / 5
-    star = space_course(0.1 * np.column_stack([np.sin(angles), np.cos(angles)]), STEP, closed=True)
+    star = space_path(0.1 * np.column_stack([np.sin(angles), np.cos(angles)]), STEP, closed=True)
     np.testing.assert_array_equal(mended(star), star)
 
 
