@@ -16,7 +16,7 @@ from signimit.benchmark.shipped_sessions import SESSIONS
 from signimit.benchmark.splits import choose_splits
 from signimit.benchmark.tables import MANY, hours_for, leaderboard, overview
 from signimit.exceptions import InvalidInputError
-from signimit.io.output import whole_files
+from signimit.io.safe_files import whole_files
 from signimit_envs.cli.command_line import run_program
 
 OUT = Path("out/benchmark")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from signimit.io.output import whole_files
+from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.casting import Source, cast_people
 from signimit_envs.cli.command_line import run_program

@@ -13,7 +13,7 @@ from tqdm import tqdm
 
 import signimit
 from signimit.benchmark.studies.policies import StudyPlan, Trial, compose_lessons, run_study, study_table, summarise
-from signimit.io.output import whole_files
+from signimit.io.safe_files import whole_files
 from signimit.plots.policy_field import draw_portraits
 from signimit.policies import POLICY_KINDS, make_policy
 from signimit.strokes import StrokeLibrary

@@ -36,7 +36,7 @@ from signimit.benchmark.studies.tables import (
 )
 from signimit.exceptions import InvalidInputError
 from signimit.intervals import wilson_interval
-from signimit.io.output import whole_files
+from signimit.io.safe_files import whole_files
 from signimit.plots.studies import draw_calibration, draw_cells, draw_growth, draw_lessons
 from signimit.strokes import StrokeLibrary
 from signimit_envs.cli.command_line import run_program

@@ -8,7 +8,7 @@ import shlex
 import sys
 from pathlib import Path
 
-from signimit.io.output import whole_files
+from signimit.io.safe_files import whole_files
 from signimit_envs.cli.command_line import run_program
 from signimit_envs.timing.throughput.report import markdown, measure_throughput, report
 from signimit_envs.timing.throughput.work import ThroughputPlan

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 from typing import Any, Literal
 
-from signimit.io.output import whole_files
+from signimit.io.safe_files import whole_files
 from signimit_envs.cli.command_line import run_program
 from signimit_envs.cli.training import TrainingPlan, evaluate_agent, train_ppo
 from signimit_envs.video.record_mp4 import RecordMp4

@@ -25,7 +25,7 @@ from signimit.benchmark.registry import refer_to
 from signimit.benchmark.results import ResultFile, read_summaries
 from signimit.benchmark.tables import leaderboard
 from signimit.io.formats import read_csv_demonstrations, read_inkml, read_strokes
-from signimit.io.records import read_records
+from signimit.io.safe_files import read_records
 from signimit_envs.recording import Recording, find_divergence, load_recording, observe_states
 from signimit_envs.recording.formats import detect_format, read_data, read_recording
 from signimit_envs.studio.web.serving import StudioPlan, running_studio

@@ -13,7 +13,7 @@ from signimit.benchmark.engines import WAITING, Engine, batches_of, check_counts
 from signimit.benchmark.provenance import code_hash
 from signimit.benchmark.running import Task
 from signimit.exceptions import InvalidInputError, MissingDependencyError
-from signimit.io.records import Record
+from signimit.io.safe_files import Record
 
 try:
     distributed: Any = import_module("distributed")  # half of it has no types

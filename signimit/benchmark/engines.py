@@ -15,7 +15,7 @@ from itertools import islice
 
 from signimit.benchmark.running import Task, run_task
 from signimit.exceptions import InvalidInputError
-from signimit.io.records import Record
+from signimit.io.safe_files import Record
 
 Engine = Callable[[Iterable[Task]], Iterator[Record]]
 WAITING = 2  # batches a worker that wait or run: enough that nobody idles, few enough for millions of tasks

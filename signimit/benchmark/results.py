@@ -22,8 +22,7 @@ from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, estimate_stage
 from signimit.exceptions import FileFormatError
-from signimit.io.records import Record, append_record, read_records
-from signimit.io.safe_files import replaced_file
+from signimit.io.safe_files import Record, append_record, read_records, replaced_file
 
 FORMAT, VERSION = "signimit benchmark results", 1
 NEEDED = frozenset({"split", "seed", "code", "demonstrations", "obeyed", "misfit", "seconds"})
@@ -97,7 +96,7 @@ def run_missing(file: ResultFile, splits: Sequence[str], seeds: Iterable[int], e
         FileFormatError: If the file has results that these cannot join; or a worker runs other code.
     """
     done = {(r["split"], r["seed"]) for r in file.read()}
-    empty = not file.records.exists() or not file.records.stat().st_size
+    empty = not read_records(file.records)
     todo = (Task(file.entrant, split, seed) for seed in seeds for split in splits if (split, seed) not in done)
     for record in engine(todo):
         if record["code"] != code_hash():

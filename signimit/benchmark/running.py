@@ -16,7 +16,7 @@ from signimit.benchmark.sessions import BenchmarkSession, Lesson, entry_stream, 
 from signimit.benchmark.shipped_sessions import get_session, session_hash
 from signimit.benchmark.splits import get_split
 from signimit.exceptions import InvalidInputError
-from signimit.io.records import Record
+from signimit.io.safe_files import Record
 from signimit.learners.base import Understanding
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.stats import t
 
 from signimit.intervals import wilson_interval
-from signimit.io.records import Record
+from signimit.io.safe_files import Record
 
 
 @dataclass(frozen=True)

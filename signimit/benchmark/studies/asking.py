@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from signimit.benchmark.studies.cells import Cell, People, cast_strokes
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.inference import WordOrder
-from signimit.io.records import Record
+from signimit.io.safe_files import Record
 from signimit.learning import ImitationModel, learn
 from signimit.teaching.composition import compose_loops, compose_path, compose_utterance
 from signimit.teaching.languages import Language, Request

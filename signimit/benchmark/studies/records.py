@@ -11,9 +11,9 @@ from pathlib import Path
 from signimit.benchmark.studies.cells import Cell, People, compose_session
 from signimit.benchmark.studies.methods import BASELINES, Answer, Evidence, answer
 from signimit.benchmark.studies.scoring import confidences, judge
-from signimit.io.records import Record as Record
-from signimit.io.records import append_record as append_record
-from signimit.io.records import read_records as read_records
+from signimit.io.safe_files import Record as Record
+from signimit.io.safe_files import append_record as append_record
+from signimit.io.safe_files import read_records as read_records
 from signimit.learning import learn
 
 OURS = "joint"

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.formats.csv_tables import Row, read_table, write_table
-from signimit.io.whole_folder import whole_folder
+from signimit.io.safe_files import whole_folder
 
 HANDS, OBJECTS, SIGNS = "hands.csv", "objects.csv", "signs.csv"
 COLUMNS = {

@@ -18,7 +18,7 @@ from signimit.benchmark.results import (
 )
 from signimit.benchmark.running import Task
 from signimit.exceptions import FileFormatError
-from signimit.io.records import Record
+from signimit.io.safe_files import Record
 
 
 def record_of(task: Task, **changes: object) -> Record:

@@ -101,7 +101,7 @@ def test_a_reader_who_has_seen_enough_ends_a_program_quietly() -> None:
 
 def test_a_program_that_is_terminated_removes_its_drafts(tmp_path: Path) -> None:
     body = "def main() -> None:\n    with whole_files('out'):\n        os.kill(os.getpid(), signal.SIGTERM)\n"
-    ours = "from signimit_envs.cli.command_line import run_program\nfrom signimit.io.output import whole_files\n"
+    ours = "from signimit_envs.cli.command_line import run_program\nfrom signimit.io.safe_files import whole_files\n"
     script = f"import os, signal\n{ours}{body}run_program(main)"
     done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=False)
     assert done.returncode == 128 + signal.SIGTERM

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.formats.csv_tables import Row, read_table, write_table
-from signimit.io.whole_folder import whole_folder
+from signimit.io.safe_files import whole_folder
 from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
 from signimit_envs.recording.formats.columns import (
     Field,

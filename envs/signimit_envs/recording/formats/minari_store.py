@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 
 from signimit.exceptions import FileFormatError, InvalidInputError, MissingDependencyError
-from signimit.io.whole_folder import check_vacant, whole_folder
+from signimit.io.safe_files import check_vacant, whole_folder
 
 if TYPE_CHECKING:
     from minari import MinariDataset

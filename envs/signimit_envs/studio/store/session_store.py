@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 from signimit.exceptions import InvalidInputError, SignimitError
+from signimit.io.safe_files import append_record, read_records
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.store.events import Created, Event, event_from_json, event_to_json
 from signimit_envs.studio.store.history import History, retell
-from signimit_envs.studio.store.journal import append_line, mend, read_lines
 
 ID_PATTERN = r"^[0-9]{8}-[0-9]{6}-[0-9a-f]{8}$"
 _JOURNAL = "journal.jsonl"
@@ -71,16 +71,15 @@ class Shelf:
 
     def append(self, session: str, event: Event) -> None:
         """Add an event to a session's journal; on the disk when this returns."""
-        append_line(self._folder / session / _JOURNAL, event_to_json(event))
+        append_record(self._folder / session / _JOURNAL, event_to_json(event))
 
     def read(self, session: str) -> History:
-        """Return a session as its journal tells it, cutting off what a killed process left half written.
+        """Return a session as its journal tells it, leaving out what a killed process left half written.
 
         Raises:
             SignimitError: Names the line that is not ours.
         """
         journal = self._folder / session / _JOURNAL
-        mend(journal)
         return retell(self._events(journal))
 
     def listed(self) -> list[Listed]:
@@ -95,12 +94,11 @@ class Shelf:
 
     def append_track(self, session: str, answer: int, part: dict[str, Any]) -> None:
         """Add to what the arm did in an answer."""
-        append_line(self._track(session, answer), part)
+        append_record(self._track(session, answer), part)
 
     def read_track(self, session: str, answer: int) -> list[dict[str, Any]]:
         """Return what the arm did in an answer, part by part; empty if nothing."""
-        track = self._track(session, answer)
-        return list(read_lines(track)) if track.exists() else []
+        return read_records(self._track(session, answer))
 
     def _track(self, session: str, answer: int) -> Path:
         return self._folder / session / f"track-{answer:d}.jsonl"
@@ -123,7 +121,7 @@ class Shelf:
 
     @staticmethod
     def _events(journal: Path) -> Iterator[Event]:
-        for number, line in enumerate(read_lines(journal), 1):
+        for number, line in enumerate(read_records(journal), 1):
             try:
                 yield event_from_json(line)
             except InvalidInputError as error:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from signimit.demonstrations import KIND, VERSION, Demonstration, DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.io.whole_folder import whole_folder
+from signimit.io.safe_files import whole_folder
 from signimit.signs import SAMPLES, normalised_sign
 from signimit_envs.recording.formats.lerobot.layout import INFO, EpisodeFrames, Feature, Layout, import_pyarrow
 from signimit_envs.recording.formats.lerobot.reading import lerobot_errors, read_layout

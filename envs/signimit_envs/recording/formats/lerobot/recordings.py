@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.io.whole_folder import whole_folder
+from signimit.io.safe_files import whole_folder
 from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
