@@ -1,55 +1,8 @@
-#!/usr/bin/env python3
-"""Learn from a file of demonstrations, say what was understood, and write the model."""
+"""Front of ``python -m signimit learn``."""
 
-from __future__ import annotations
+import sys
 
-from pathlib import Path
-
-from signimit.demonstrations import DemonstrationSet
-from signimit.learners import DEFAULT_METHOD
-from signimit.learning import learn
-from signimit.policies import DEFAULT_POLICY
-from signimit.strokes import StrokeLibrary
-from signimit.teaching.languages import PAPER_LANGUAGE
-from signimit_envs.cli.command_line import run_program
-
-
-def main(
-    demonstrations: Path,
-    /,
-    *,
-    prototypes: Path | None = None,
-    labels: tuple[str, ...] = PAPER_LANGUAGE.prototypes,
-    method: str = DEFAULT_METHOD,
-    policy: str = DEFAULT_POLICY,
-    seed: int = 0,
-    out: Path = Path("model.npz"),
-    why: Path | None = None,
-) -> None:
-    """Learn from demonstrations, and write what was understood to a model file.
-
-    Args:
-        demonstrations: Demonstrations as make_demonstrations.py and DemonstrationSet.save write them.
-        prototypes: Stroke library with the prototype signs; the methods "paper" and "paper-literal" need it.
-        labels: Which signs of that library are prototypes; the first stroke of each is taken.
-        method: How to learn.
-        policy: Kind of policy for the responses.
-        seed: Of what the method draws at random.
-        out: Model file to write.
-        why: Picture of the reasons to write, with the default method: probabilities, lexicon, evidence.
-    """
-    demos = DemonstrationSet.load(demonstrations)
-    library = None if prototypes is None else StrokeLibrary.load(prototypes)
-    strokes = None if library is None else [library.select(label)[0] for label in labels]
-    model = learn(demos, strokes, method, policy, seed)
-    print(model.summary() if why is None else model.explain())
-    if why is not None:
-        from signimit.plots.explanation import draw_explanation
-
-        draw_explanation(model).savefig(why, dpi=110)
-    model.save(out)
-    print(f"The model is in {out}.")
-
+from signimit.__main__ import main
 
 if __name__ == "__main__":
-    run_program(main)
+    main(["learn", *sys.argv[1:]])

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs a program of this repository in an environment of its own (.venv), which the first call makes.
 #
-#   sh scripts/run.sh reproduce [options]    the main job; any other scripts/NAME.py goes by its name too
+#   sh scripts/run.sh reproduce [options]    the main job; any other scripts/NAME.py goes by its name too, with _ or -
 #   sh scripts/run.sh test [pytest options]  the tests
 #
 # PYTHON chooses the interpreter (3.11 or newer), e.g. PYTHON=python3.12 sh scripts/run.sh test
@@ -159,6 +159,7 @@ if [ "$what" = test ]; then
     cd "$root"
     exec "$venv/bin/python" -m pytest "$@"
 fi
+what=$(printf '%s' "$what" | tr - _)
 case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
 [ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test$(programs)"
 ensure_environment "$(purpose_of "$what")"

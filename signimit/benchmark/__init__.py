@@ -4,7 +4,7 @@
 anything with three methods (`Entry`) watches the demonstrations of a session, is asked for something by signs, and
 moves a hand at 50 Hz. Splits are named, frozen and shipped, and each is the paper's session with one thing changed.
 
-Entering, splits, scores and scale: docs/benchmark.md. Program: scripts/benchmark.py.
+Entering, splits, scores and scale: docs/benchmark.md. Command: `benchmark`.
 """
 
 from signimit.benchmark.protocol import Entrant as Entrant

@@ -179,7 +179,7 @@ def read_summaries(folder: Path) -> list[Summary]:
             raise FileFormatError(str(path), f"{FORMAT} version {VERSION}", found)
         summaries.append(summary)
     if not summaries:
-        raise FileFormatError(str(folder), "results; `benchmark.py run` makes them", "none")
+        raise FileFormatError(str(folder), "results; `benchmark run` makes them", "none")
     return summaries
 
 

@@ -1,1 +1,66 @@
-"""The command-line programs, one module each."""
+"""The command line: ``python -m signimit COMMAND``, one module a command.
+
+A module has a function ``main``, or ``SUBCOMMANDS``, functions by name. The signature of a function gives its options
+and its docstring the help. Only the module of the command that was asked for is imported, so that an extra is missed
+only where it is needed.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Sequence
+
+from signimit.exceptions import UnknownNameError
+from signimit_envs.cli.command_line import BAD_INPUT, call_with_options, exit_codes
+
+COMMANDS = {
+    "reproduce": "the paper's experiment: watch, learn, and obey 36 commands with a simulated arm",
+    "studio": "draw signs and movements in a browser, and watch the arm answer",
+    "make-demonstrations": "demonstrations of synthetic or imported people, as input for learn",
+    "import-strokes": "strokes of real people from UNIPEN, $1 or InkML files into one library",
+    "learn": "demonstrations to a model",
+    "render": "a model and signs to a video",
+    "record": "a model obeys; every physics state is kept",
+    "replay": "recorded episodes again, compared bit for bit, or from another camera",
+    "convert": "demonstrations or recordings from one format to another",
+    "sessions": "many sessions on the physics, each failing stage named",
+    "benchmark": "the benchmark: run entries, make the leaderboard",
+    "study": "learners and policies against their baselines",
+    "train": "PPO of stable-baselines3 on the environments",
+    "speed": "what environments and core cost beside the plainest way",
+    "throughput": "many reproductions at once beside one at a time",
+    "studio-load": "what a page of the studio waits for",
+    "results": "the tables of the README from the files of results",
+    "doctor": "what works on this machine, and the line that mends the rest",
+}
+
+
+def main(argv: Sequence[str] | None = None) -> None:
+    """Run a command; a process that cannot carry it out ends with a code other than 0.
+
+    Args:
+        argv: The command and its arguments; left out, those of the process.
+    """
+    name, *arguments = list(sys.argv[1:] if argv is None else argv) or [""]
+    if name in ("-h", "--help"):
+        print(_overview())
+    elif not name:
+        sys.stderr.write(f"{_overview()}\n")
+        sys.exit(BAD_INPUT)
+    else:
+        run_command(name.replace("_", "-"), arguments)
+
+
+def run_command(name: str, arguments: Sequence[str]) -> None:
+    """Import the module of a command, and call its function."""
+    with exit_codes(name, arguments):
+        if name not in COMMANDS:
+            raise UnknownNameError("command", name, COMMANDS)
+        module = importlib.import_module(f"signimit_envs.cli.{name.replace('-', '_')}")
+        call_with_options(getattr(module, "SUBCOMMANDS", None) or module.main, arguments, f"signimit {name}")
+
+
+def _overview() -> str:
+    commands = "\n".join(f"  {name:20s} {what}" for name, what in COMMANDS.items())
+    return f"usage: python -m signimit COMMAND [options]; COMMAND --help says more\n\n{commands}"

@@ -1,50 +1,82 @@
-"""What all command-line programs share: arguments from a function's signature, and one sentence for bad input."""
+"""What all commands share: options from a function's signature, one sentence for bad input, and exit codes."""
 
 from __future__ import annotations
 
 import inspect
 import os
+import shlex
 import signal
 import sys
-from collections.abc import Callable
-from pathlib import Path
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from types import FrameType
 
 from signimit.exceptions import MissingDependencyError, SignimitError
 
 BAD_INPUT = 2
 PIPE_CLOSED = 141  # what a shell reports of a program that SIGPIPE ended
+INTERRUPTED = 130  # and of one that SIGINT ended
 _SCRIPT_PACKAGES = ("matplotlib", "tqdm", "tyro")
+_running: ContextVar[tuple[str, ...]] = ContextVar("_running", default=())
 
 
-def run_program(program: Callable[..., None]) -> None:
-    """Parse the command line into the arguments of a function, call it, and end the process.
+def command_text() -> str:
+    """Return the command that runs, as one would type it, for files that say how they were made."""
+    return shlex.join(["python", "-m", "signimit", *_running.get()])
 
-    Input that cannot be used ends it with code 2 and one sentence on the error stream, without a traceback.
+
+@contextmanager
+def exit_codes(name: str, argv: Sequence[str]) -> Iterator[None]:
+    """End the process with the code that says why, if a command cannot be carried out.
+
+    Input that cannot be used ends it with code 2 and one sentence on the error stream, without a traceback. SIGTERM
+    leaves by way of every ``finally``, so that drafts of files are removed.
 
     Args:
-        program: Its signature gives the options, its docstring the help.
+        name: The command; its complaints begin with it.
+        argv: Its arguments; `command_text` repeats them.
     """
-    signal.signal(signal.SIGTERM, _stop)
+    signal.signal(signal.SIGTERM, _exit_on_signal)
+    token = _running.set((name, *argv))
     try:
-        import tyro
-
-        help_text = (inspect.getdoc(program) or "").partition("\nArgs:")[0]  # tyro puts these beside the options
-        tyro.cli(program, description=help_text.strip())
+        yield
         sys.stdout.flush()
-    except BrokenPipeError:  # whoever read the output has seen enough
+    except BrokenPipeError:  # the reader of the output has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python complains when it flushes at exit
         sys.exit(PIPE_CLOSED)
     except (SignimitError, OSError, ModuleNotFoundError) as error:
-        sys.stderr.write(f"{Path(sys.argv[0]).stem}: {_sentence(error)}\n")
+        sys.stderr.write(f"{name}: {_sentence(error)}\n")
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.stderr.write("\nstopped\n")
-        sys.exit(130)
+        sys.exit(INTERRUPTED)
+    finally:
+        _running.reset(token)
 
 
-def _stop(number: int, frame: FrameType | None) -> None:
-    """Leave by way of every ``finally``, so that drafts of files are removed."""
+def call_with_options(
+    command: Callable[..., None] | Mapping[str, Callable[..., None]], argv: Sequence[str], program: str
+) -> None:
+    """Parse arguments into those of a function, and call it.
+
+    Args:
+        command: A function, whose signature gives the options and whose docstring the help, or one for each subcommand.
+        argv: Arguments as they were typed.
+        program: What the help calls the program.
+    """
+    if callable(command) and not argv and not inspect.signature(command).parameters:
+        command()  # without tyro: it may be what `doctor` has to report as missing
+        return
+    import tyro
+
+    if callable(command):
+        tyro.cli(command, args=argv, prog=program)
+    else:
+        tyro.extras.subcommand_cli_from_dict(dict(command), args=argv, prog=program)
+
+
+def _exit_on_signal(number: int, frame: FrameType | None) -> None:
     sys.exit(128 + number)
 
 

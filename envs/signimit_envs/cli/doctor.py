@@ -1,10 +1,11 @@
-"""What works on this machine and what does not: for people who wonder why there is no picture."""
+"""The doctor: what works on this machine, what is missing, and the line that mends it."""
 
 from __future__ import annotations
 
 import importlib.metadata
 import os
 import platform
+import sys
 from typing import NamedTuple
 
 import gymnasium as gym
@@ -16,6 +17,17 @@ from signimit_envs.video.rendering import choose_backend, has_display, renderer_
 
 _NEEDED = ("signimit", "mujoco", "mink", "gymnasium", "numpy", "scipy", "imageio", "imageio-ffmpeg")
 _OPTIONAL = {"scripts": ("matplotlib", "tqdm", "tyro"), "strokes": ("defusedxml",), "fast": ("numba",)}
+
+
+def main() -> None:
+    """Say what works on this machine, what is missing, and the line that mends it. Ends with code 1 if something is."""
+    findings = diagnose()
+    for finding in findings:
+        print(f"{'ok     ' if finding.works else 'MISSING'}  {finding.what:10s}  {finding.detail}")
+        if finding.remedy:
+            print(f"{'':21s}{finding.remedy}")
+    if not all(finding.works for finding in findings):
+        sys.exit(1)
 
 
 class Finding(NamedTuple):

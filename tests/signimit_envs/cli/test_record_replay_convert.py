@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import runpy
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,20 +9,18 @@ import numpy as np
 import pytest
 
 import signimit as si
+from signimit_envs.cli import main
 from signimit_envs.recording import load_recording, save_recording
 from signimit_envs.recording.episodes import Recording
 
 pytest.importorskip("tyro")
-SCRIPTS = Path(__file__).parents[2] / "scripts"
 
 
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return a recording of nine requests, made by the program itself."""
+    """Return a recording of nine requests, made by the command itself."""
     path = tmp_path_factory.mktemp("recorded") / "r.npz"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sys, "argv", ["record.py", "--seconds", "1", "--out", str(path)])
-        runpy.run_path(str(SCRIPTS / "record.py"), run_name="__main__")
+    main(["record", "--seconds", "1", "--out", str(path)])
     return path
 
 
@@ -80,9 +76,10 @@ def test_a_recording_of_another_mujoco_gets_a_note_and_still_plays(run: Any, rec
     assert (tmp_path / "state.npz").exists()
 
 
-def test_data_go_to_csv_and_back_to_the_same_bytes(run: Any, recorded: Path, tmp_path: Path) -> None:
-    run("make_demonstrations", "--out", tmp_path)
-    for source in (tmp_path / "demonstrations.npz", recorded):
+def test_data_go_to_csv_and_back_to_the_same_bytes(
+    run: Any, demonstrations: Path, recorded: Path, tmp_path: Path
+) -> None:
+    for source in (demonstrations / "demonstrations.npz", recorded):
         tables, again = tmp_path / f"{source.stem}-tables", tmp_path / f"again-{source.name}"
         assert "(csv)" in run("convert", source, tables, "--to", "csv")
         run("convert", tables, again)
@@ -94,7 +91,7 @@ def test_data_go_to_csv_and_back_to_the_same_bytes(run: Any, recorded: Path, tmp
     ("name", "arguments", "complaint"),
     [
         ("replay", ["none.npz"], "none.npz: No such file"),
-        ("replay", [SCRIPTS / "learn.py"], "expected a signimit recording file"),
+        ("replay", [__file__], "expected a signimit recording file"),
         ("replay", ["d.npz"], "expected recorded episodes, found demonstrations, which hold no physics"),
         ("convert", ["d.npz", "tables"], "tables: expected a name that says its format, or --to, found neither"),
         ("convert", ["d.npz", "d.npz"], "d.npz: expected nothing of that name yet"),

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import runpy
-import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -16,12 +15,6 @@ from signimit_envs.timing.throughput.vector_envs import WayToStep
 from signimit_envs.timing.throughput.work import ThroughputPlan
 
 pytest.importorskip("tyro")
-PROGRAM = Path(__file__).parents[2] / "scripts" / "throughput.py"
-
-
-def run(*arguments: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "argv", [str(PROGRAM), *arguments])
-    runpy.run_path(str(PROGRAM), run_name="__main__")
 
 
 def measured(plan: ThroughputPlan) -> report.Throughput:
@@ -31,24 +24,19 @@ def measured(plan: ThroughputPlan) -> report.Throughput:
 
 
 def test_the_page_and_the_numbers_are_written_and_shown(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+    run: Any, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(report, "measure_throughput", measured)
-    arguments = ("--batches", "9", "64", "--threads", "0", "--out", str(tmp_path / "out"))
-    run(*arguments, monkeypatch=monkeypatch)
+    monkeypatch.setattr("signimit_envs.cli.throughput.measure_throughput", measured)
+    said = run("throughput", "--batches", "9", "64", "--threads", "0", "--out", tmp_path / "out")
     page = (tmp_path / "out" / "throughput.md").read_text()
-    assert page in capsys.readouterr().out
+    assert page in said
     assert "| 64 | all | 11.0 x | 10.5 x | 6.0 x |" in page
     facts = json.loads((tmp_path / "out" / "throughput.json").read_text())
-    assert facts["command"].startswith("sh scripts/run.sh throughput --batches 9 64")
+    assert facts["command"].startswith("python -m signimit throughput --batches 9 64")
     assert [row["batch"] for row in facts["batches"]] == [9, 64]
 
 
-def test_bad_input_is_told_in_one_sentence_and_nothing_is_written(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    with pytest.raises(SystemExit) as stop:
-        run("--turns", "0", "--out", str(tmp_path / "out"), monkeypatch=monkeypatch)
-    assert stop.value.code == 2
-    assert capsys.readouterr().err == "throughput: turns: expected at least 1, found 0.\n"
+def test_bad_input_is_told_in_one_sentence_and_nothing_is_written(run: Any, tmp_path: Path) -> None:
+    said = run.refusal("throughput", "--turns", "0", "--out", tmp_path / "out")
+    assert said == "throughput: turns: expected at least 1, found 0.\n"
     assert not list(tmp_path.iterdir())

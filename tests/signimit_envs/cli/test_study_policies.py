@@ -1,4 +1,4 @@
-"""The programs that compare policies."""
+"""The studies that compare policies."""
 
 from __future__ import annotations
 
@@ -16,19 +16,8 @@ pytest.importorskip("matplotlib")
 
 
 def test_the_study_writes_table_trials_facts_and_a_picture_of_each_kind(run: Any, tmp_path: Path) -> None:
-    options = [
-        "--labels",
-        "circle",
-        "star",
-        "--kinds",
-        "path-following",
-        "knn",
-        "--sessions",
-        1,
-        "--starts",
-        2,
-    ]
-    said = run("policies", *options, "--out", tmp_path / "study")
+    options = ["--labels", "circle", "star", "--kinds", "path-following", "knn", "--sessions", 1, "--starts", 2]
+    said = run("study", "policies", *options, "--out", tmp_path / "study")
     assert "| path-following | 100.0 %" in said
     trials = list(csv.DictReader((tmp_path / "study" / "trials.csv").read_text().splitlines()))
     assert [t["label"] for t in trials] == ["circle", "circle", "star", "star"]
@@ -44,7 +33,9 @@ def test_lasa_prints_a_line_for_each_kind(run: Any, tmp_path: Path) -> None:
     for i in range(2):
         demos[0, i] = {"pos": np.array([[-30.0], [20.0 + i]]) * (1 - times / 2) ** 2, "t": times}
     savemat(tmp_path / "Line.mat", {"demos": demos, "dt": 0.02})
-    said = run("lasa", "--folder", tmp_path, "--kinds", "path-following", "dmp", "--out", tmp_path / "lasa.csv")
+    said = run(
+        "study", "lasa", "--folder", tmp_path, "--kinds", "path-following", "dmp", "--out", tmp_path / "lasa.csv"
+    )
     assert "path-following" in said
     assert "dmp" in said
     assert len((tmp_path / "lasa.csv").read_text().splitlines()) == 3
@@ -55,7 +46,7 @@ def test_an_unknown_kind_is_refused_in_one_sentence(
 ) -> None:
     options = ["--kinds", "magic", "--labels", "circle", "--sessions", 1]
     with pytest.raises(SystemExit) as stop:
-        run("policies", *options, "--out", tmp_path / "x")
+        run("study", "policies", *options, "--out", tmp_path / "x")
     assert stop.value.code == 2
     assert "magic" in capsys.readouterr().err.splitlines()[-1]
     assert not (tmp_path / "x").exists()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 import signimit
-from signimit_envs.cli.training import TrainingPlan, evaluate_agent, train_ppo
+from signimit_envs.cli.train import TrainingPlan, evaluate_agent, train_ppo
 from signimit_envs.video.rendering import choose_backend
 
 
@@ -71,3 +72,16 @@ def test_a_plan_for_nothing_is_refused(name: str) -> None:
         TrainingPlan(**{name: -1})  # type: ignore[arg-type]
     with pytest.raises(signimit.InvalidInputError, match="episodes: expected 1 or more, found 0"):
         evaluate_agent(Still(), TrainingPlan().make_env(), 0, seed=0)
+
+
+@pytest.mark.parametrize(
+    ("option", "message"),
+    [("--steps=0", "train: steps: expected 1 or more, found 0."), ("--objects=9", "train: objects: expected 2 to 6")],
+)
+def test_what_cannot_be_trained_is_refused_and_leaves_nothing(
+    run: Any, option: str, message: str, tmp_path: Path
+) -> None:
+    pytest.importorskip("tyro")
+    pytest.importorskip("stable_baselines3", reason="stable-baselines3 is not installed")
+    assert run.refusal("train", option, "--out", tmp_path / "out").startswith(message)
+    assert list(tmp_path.iterdir()) == []

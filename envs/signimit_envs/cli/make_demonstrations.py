@@ -1,0 +1,49 @@
+"""Make a set of demonstrations from synthetic or imported people, as input for `learn`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from signimit.io.safe_files import whole_files
+from signimit.strokes import StrokeLibrary
+from signimit.teaching.people.casting import Source, cast_people
+from signimit_envs.sessions.report import truth_text
+from signimit_envs.sessions.session import SessionPlan, compose_session
+
+
+def main(
+    out: Path = Path("out/demonstrations"),
+    seed: int = 35,
+    signs: Path | None = None,
+    signer: str | None = None,
+    movements: Path | None = None,
+    mover: str | None = None,
+) -> None:
+    """Let two people make the paper's 12 demonstrations.
+
+    Writes demonstrations.npz and prototypes.npz for `learn`, signs.npz, the interactant's strokes, for `render`, and
+    truth.json, which no learner may read. The same seed gives the demonstrations of `reproduce`.
+
+    Args:
+        out: Folder for the files.
+        seed: Decides people, scenes and everything else that is drawn.
+        signs: Stroke library of real people (see `import-strokes`) who make the signs; left out, a synthetic person.
+        signer: Whose strokes of that library; left out, somebody's.
+        movements: Stroke library of real people who show the movements; left out, a synthetic person.
+        mover: Whose strokes of that library; left out, somebody's.
+    """
+    plan = SessionPlan(seed=seed)
+    rng = np.random.default_rng([seed, 1])
+    cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
+    session = compose_session(plan, cast)
+    labels = plan.language.prototypes
+    prototypes = StrokeLibrary(session.prototypes, labels, (cast.names[0],) * len(labels), cast.signs.source)
+    with whole_files(out) as folder:
+        session.demonstrations.save(folder / "demonstrations.npz")
+        prototypes.save(folder / "prototypes.npz")
+        cast.signs.save(folder / "signs.npz")
+        (folder / "truth.json").write_text(truth_text(session), encoding="utf-8")
+    print(f"{len(session.demonstrations)} demonstrations are in {out / 'demonstrations.npz'}. Next:")
+    print(f"  python -m signimit learn {out / 'demonstrations.npz'} --prototypes {out / 'prototypes.npz'}")

@@ -1,0 +1,263 @@
+"""How well demonstrations are understood: every table and figure of the studies, from seeds."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy
+from tqdm import tqdm
+
+import signimit
+from signimit.benchmark.studies.asking import asking_cells, run_lessons
+from signimit.benchmark.studies.cells import Cell, People, study_cells
+from signimit.benchmark.studies.left_out_people import FoldRow, leave_people_out
+from signimit.benchmark.studies.records import OURS, Record, Run, read_records, run_session, run_sessions
+from signimit.benchmark.studies.scaling import Measurement, measure_growth
+from signimit.benchmark.studies.scoring import calibrate
+from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quizzes
+from signimit.benchmark.studies.tables import (
+    LessonRow,
+    Row,
+    beaten_cells,
+    demonstrations_needed,
+    markdown,
+    tabulate,
+    tabulate_lessons,
+    write_csv,
+)
+from signimit.exceptions import InvalidInputError
+from signimit.intervals import wilson_interval
+from signimit.io.safe_files import whole_files
+from signimit.strokes import StrokeLibrary
+from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
+
+OUT = Path("results/study")
+UNDERSTOOD = 0.95  # share of commands that a lesson shall come to
+LONGEST = 100.0  # s of processors; a step that would take longer is not measured at larger sizes
+
+
+def cells(
+    *,
+    sessions: int = 20,
+    first_seed: int = 0,
+    signs: Path | None = None,
+    movements: Path | None = None,
+    only: str = "",
+    workers: int = 0,
+    out: Path = OUT,
+) -> None:
+    """Compare the default learner with all baselines, cell by cell. Goes on where a killed run stopped.
+
+    Args:
+        sessions: How many of each cell.
+        first_seed: Seed of the first; the others follow.
+        signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
+        movements: Stroke library of real people who draw movements.
+        only: Run only cells whose names contain this.
+        workers: Processes; left out, one less than there are processors.
+        out: Folder for what is written.
+    """
+    from signimit.plots.studies import draw_cells
+
+    people = load_people(signs, movements)
+    chosen = [cell for cell in study_cells(people is not None) if only in cell.name]
+    seeds = range(first_seed, first_seed + sessions)
+    rows = tabulate(run_missing(run_session, chosen, seeds, people, workers, out / "sessions.jsonl"))
+    with whole_files(out) as folder:
+        write_csv(folder / "cells.csv", Row._fields, rows)
+        (folder / "cells.md").write_text(markdown(rows) + "\n", encoding="utf-8")
+        sources = [p.source for p in people] if people else ["synthetic"]
+        write_facts(
+            folder / "cells.json", {"seeds": [seeds[0], seeds[-1]], "people": sources, "beaten": beaten_cells(rows)}
+        )
+        draw_cells(rows).savefig(folder / "cells.png", dpi=90)
+    print(markdown(rows))
+    for cell, method, theirs, ours in beaten_cells(rows):
+        print(f"{cell}: {method} was right in {theirs} sessions, {OURS} in {ours}")
+
+
+def asking(
+    *,
+    sessions: int = 20,
+    first_seed: int = 0,
+    signs: Path | None = None,
+    movements: Path | None = None,
+    only: str = "",
+    workers: int = 0,
+    out: Path = OUT,
+) -> None:
+    """Measure how much sooner a learner understands that asks. Goes on where a killed run stopped.
+
+    Args:
+        sessions: How many lessons of each cell.
+        first_seed: Seed of the first; the others follow.
+        signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
+        movements: Stroke library of real people who draw movements.
+        only: Run only cells whose names contain this.
+        workers: Processes; left out, one less than there are processors.
+        out: Folder for what is written.
+    """
+    from signimit.plots.studies import draw_lessons
+
+    people = load_people(signs, movements)
+    chosen = [cell for cell in asking_cells(people is not None) if only in cell.name]
+    seeds = range(first_seed, first_seed + sessions)
+    rows = tabulate_lessons(run_missing(run_lessons, chosen, seeds, people, workers, out / "lessons.jsonl"))
+    needed = demonstrations_needed(rows, UNDERSTOOD)
+    with whole_files(out) as folder:
+        write_csv(folder / "asking.csv", LessonRow._fields, rows)
+        facts = {"seeds": [seeds[0], seeds[-1]], f"demonstrations until {UNDERSTOOD:.0%} are understood": needed}
+        write_facts(folder / "asking.json", facts)
+        draw_lessons(rows).savefig(folder / "asking.png", dpi=90)
+    for cell, strategy, count in needed:
+        print(f"{cell}, asking {strategy}: {UNDERSTOOD:.0%} understood from {count or 'more'} demonstrations on")
+
+
+def load_people(signs: Path | None, movements: Path | None) -> People | None:
+    """Load real people's strokes, if both kinds are given."""
+    if signs is None or movements is None:
+        return None
+    return People(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
+
+
+def run_missing(
+    run: Run, chosen: list[Cell], seeds: range, people: People | None, workers: int, file: Path
+) -> list[Record]:
+    """Run the sessions that are not in a file of records yet, and return those of all, by cell and seed."""
+    if not seeds or not chosen:
+        raise InvalidInputError("cells", "at least 1 session of 1 cell", f"{len(seeds)} of {len(chosen)}")
+    workers = workers or max(1, (os.cpu_count() or 2) - 1)
+    for _ in tqdm(run_sessions(run, chosen, seeds, file, people, workers), unit="session"):
+        pass
+    order = {cell.name: number for number, cell in enumerate(chosen)}
+    found = [r for r in read_records(file) if r["cell"] in order and r["seed"] in seeds]
+    return sorted(found, key=lambda r: (order[r["cell"]], r["seed"]))
+
+
+def calibration(*, out: Path = OUT) -> None:
+    """Say how well confidences fit, over all commands of the sessions that ``study cells`` ran.
+
+    Args:
+        out: Folder of these sessions, and for what is written.
+    """
+    from signimit.plots.studies import draw_calibration
+
+    records = read_records(out / "sessions.jsonl")
+    if not records:
+        raise InvalidInputError(str(out / "sessions.jsonl"), "sessions; run `study cells` first", "none")
+    groups = {"all": records} | {
+        kind: [r for r in records if r["cell"].startswith(kind)] for kind in ("synthetic", "real")
+    }
+    rows, facts = [], {}
+    for kind, mine in groups.items():
+        if not mine:
+            continue
+        found = calibrate(*_asked(mine))
+        facts[kind] = {"commands": int(found.counts.sum()), "expected calibration error": round(found.error, 4)}
+        rows += [
+            (kind, f"{c:.4f}", f"{a:.4f}", n)
+            for c, a, n in zip(found.confidence, found.accuracy, found.counts, strict=True)
+        ]
+    with whole_files(out) as folder:
+        write_csv(folder / "calibration.csv", ("people", "confidence", "accuracy", "commands"), rows)
+        write_facts(folder / "calibration.json", facts)
+        draw_calibration(calibrate(*_asked(records))).savefig(folder / "calibration.png", dpi=90)
+    print(json.dumps(facts, indent=1))
+
+
+def _asked(records: list[Record]) -> tuple[list[float], list[int]]:
+    asked = [tuple(command) for r in records for command in r["commands"]]
+    return [sure for sure, _ in asked], [right for _, right in asked]
+
+
+def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Path = OUT) -> None:
+    """Learn from people who had no part in the constants of the evidence, each left out once.
+
+    Args:
+        signs: Stroke library of real people who make signs.
+        movements: Stroke library of real people who draw movements.
+        sessions: How many of each cell.
+        out: Folder for what is written.
+    """
+    if sessions < 1:
+        raise InvalidInputError("people", "at least 1 session", str(sessions))
+    people, rows = People(StrokeLibrary.load(signs), StrokeLibrary.load(movements)), []
+    for row in leave_people_out(people, sessions):
+        print(
+            f"{row.mover}, {row.cell}: {row.right_without} of {row.sessions} right with constants measured without "
+            f"these people, {row.right_shipped} with the package's",
+            flush=True,
+        )
+        rows.append(row)
+    with whole_files(out) as folder:
+        write_csv(folder / "people.csv", FoldRow._fields, rows)
+        total = sum(row.sessions for row in rows)
+        counts = {"without": sum(r.right_without for r in rows), "shipped": sum(r.right_shipped for r in rows)}
+        shares = {k: [n, total, *(round(x, 4) for x in wilson_interval(n, total))] for k, n in counts.items()}
+        write_facts(folder / "people.json", {"people": [p.source for p in people], "right, of, 95 %": shares})
+
+
+def reading_signs(*, signs: Path | None = None, sessions: int = 20, out: Path = OUT) -> None:
+    """Compare how signs are read, on their own.
+
+    Args:
+        signs: Stroke library of real people who make signs; left out, synthetic people.
+        sessions: How many quizzes of each kind.
+        out: Folder for what is written.
+    """
+    if sessions < 1:
+        raise InvalidInputError("signs", "at least 1 session", str(sessions))
+    library, rows = None if signs is None else StrokeLibrary.load(signs), []
+    for row in tqdm(run_quizzes(library, sessions), total=len(QUIZZES) * len(METHODS), unit="row"):
+        tqdm.write(f"{row.signs}, {row.shown} shown, signers {row.signers}, {row.method}: {row.right} of {row.asked}")
+        rows.append(row)
+    with whole_files(out) as folder:
+        write_csv(folder / "signs.csv", SignRow._fields, rows)
+        write_facts(folder / "signs.json", {"people": library.source if library else "synthetic"})
+
+
+def scaling(*, counts: tuple[int, ...] = (12, 25, 50, 100, 200, 500, 1000), out: Path = OUT) -> None:
+    """Measure how time and memory grow with the number of demonstrations.
+
+    Args:
+        counts: Numbers of demonstrations to measure, ascending.
+        out: Folder for what is written.
+    """
+    from signimit.plots.studies import draw_growth
+
+    found = []
+    for measurement in measure_growth(counts, LONGEST):
+        print(
+            "{:5d} demonstrations, {:24s}{:8s}{:9.3f} s, {:9.3f} s of processors, {:8.1f} MB".format(*measurement),
+            flush=True,
+        )
+        found.append(measurement)
+    with whole_files(out) as folder:
+        write_csv(folder / "scaling.csv", Measurement._fields, found)
+        write_facts(folder / "scaling.json", {"processors": os.cpu_count(), "load": os.getloadavg()[0]})
+        draw_growth(found).savefig(folder / "scaling.png", dpi=90)
+
+
+def write_facts(path: Path, facts: dict[str, Any]) -> None:
+    """Write how a table was made beside it."""
+    made = {
+        "command": command_text(),
+        "versions": {
+            "signimit": signimit.__version__, "python": platform.python_version(), "numpy": np.__version__,
+            "scipy": scipy.__version__, "scikit-learn": version("scikit-learn"),
+        },
+    }  # fmt: skip
+    path.write_text(json.dumps(facts | made, indent=1) + "\n", encoding="utf-8")
+
+
+SUBCOMMANDS = {
+    "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
+    "scaling": scaling, "policies": compare_policies, "lasa": compare_on_lasa,
+}  # fmt: skip

@@ -1,0 +1,55 @@
+"""The import program: reads, writes a whole file, prints what it found, complains in one line."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from signimit import StrokeLibrary
+from signimit.io.formats import read_inkml
+
+UNIPEN = """.SEGMENT DIGIT 0 ? "6"
+.COMMENT 6 13 38
+.PEN_DOWN
+1 2
+3 4
+.PEN_UP
+.SEGMENT DIGIT 1 ? "6"
+.COMMENT 6 4 39
+.PEN_DOWN
+1 2
+3 9
+.PEN_UP
+"""
+
+
+@pytest.fixture
+def digits(tmp_path: Path) -> Path:
+    path = tmp_path / "digits.txt"
+    path.write_text(UNIPEN)
+    return path
+
+
+def test_it_writes_a_library_and_prints_labels_against_writers(run: Any, digits: Path, tmp_path: Path) -> None:
+    out = tmp_path / "library.npz"
+    said = run("import-strokes", digits, "--out", out, "--rename", "6", "six", "--mirror", "six", "flipped")
+    assert [line.split() for line in said.splitlines()[:3]] == [
+        ["label", "4", "13"],
+        ["flipped", "1", "1"],
+        ["six", "1", "1"],
+    ]
+    library = StrokeLibrary.load(out)
+    assert library.labels == ("six", "six", "flipped", "flipped")
+
+
+def test_it_keeps_the_writers_asked_for_and_writes_inkml(run: Any, digits: Path, tmp_path: Path) -> None:
+    out = tmp_path / "library.inkml"
+    run("import-strokes", digits, "--out", out, "--writer", "4", "--label", "6")
+    assert read_inkml(out).writers == ("4",)
+
+
+def test_a_broken_file_gives_one_sentence_and_no_output_file(run: Any, digits: Path, tmp_path: Path) -> None:
+    digits.write_text(UNIPEN.replace("3 9", "3 nine"))
+    said = run.refusal("import-strokes", digits, "--out", tmp_path / "library.npz")
+    assert said == f"import-strokes: {digits}: line 11: expected two numbers, found '3 nine'.\n"
+    assert [p.name for p in tmp_path.iterdir()] == ["digits.txt"]
