@@ -1,1 +1,1 @@
-"""Files of the project: the MJCF scene and the built-in strokes. Imports nothing."""
+"""Files of the project: the MJCF scene with its texture, and the page of the studio. Imports nothing."""

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from signimit_envs.studio.loopback import studio_process
+from signimit_envs.studio.load import studio_process
 from signimit_envs.studio.web.serving import StudioPlan, running_studio
 
 expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
@@ -205,7 +205,7 @@ def test_a_session_is_looked_at_exported_imported_and_merged(
     assert opened.value.url.endswith("/figures/4.png")
     opened.value.close()
     page.locator("#replay-choice").select_option("demonstrations/3")
-    visitor.see("#replay-sentence", "Understood: movement")
+    visitor.see("#replay-sentence", "LearningResult: movement")
 
     page.locator("#tab-keep").click()
     with page.expect_download() as download:

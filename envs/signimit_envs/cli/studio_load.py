@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from signimit.validation import finite_array
-from signimit_envs.studio.load import measure_growth, measure_speed
-from signimit_envs.studio.loopback import studio_process
+from signimit_envs.studio.load import measure_growth, measure_speed, studio_process
 
 
 def main(sessions: int = 3, answers: int = 40, seconds: float = 10.0, minutes: float = 0.0) -> None:

@@ -1,5 +1,6 @@
 """The studio: draw signs and movements in a browser, and watch the simulated arm answer.
 
-Needs the extra ``studio``. One module a part: `events` and `history` say what a session is, `shelf` keeps
-it, `belief` and `wishes` say what the imitator makes of it, `live_arm` moves, `camera` looks, `web` serves.
+Needs the extra ``studio``. `store` keeps sessions as events on the disk, `open_session` learns from them, `arm`
+simulates and renders the live table, `page` says what is shown of both, `web` serves it, and `studio.Studio` holds all
+that lives as long as the server. `demo` plays a session by itself, `load` measures a studio from outside.
 """

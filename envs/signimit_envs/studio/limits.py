@@ -1,4 +1,4 @@
-"""How much of everything the studio takes from a browser."""
+"""Limits of what the studio takes from a browser."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from signimit_envs.arm.scene import OBJECT_COUNTS
 
 @dataclass(frozen=True, kw_only=True)
 class Limits:
-    """Most of each.
+    """Upper limits of sizes, counts and rates.
 
     Attributes:
         body: Bytes of a request.
@@ -24,7 +24,7 @@ class Limits:
         demonstrations: Demonstrations in a session.
         answers: Answers in a session.
         events: Edits of a session, those that were undone counted too.
-        sessions: Sessions on the shelf.
+        sessions: Sessions in a folder.
         viewers: Pages that watch the arm.
         messages: Socket messages of a page, 1/s.
         requests: Requests, 1/s.

@@ -1,21 +1,42 @@
-"""How fast the studio is, how smooth, and whether it grows: measured from outside, as a page would see it."""
+"""Load test of the studio from outside, as a page sees it: waits, frame rate, real time and memory.
+
+`studio_process` runs a studio in a process of its own, `PageClient` and `FrameWatcher` are pages without a browser.
+"""
 
 from __future__ import annotations
 
+import http.client
+import json
+import struct
+import subprocess
+import sys
+import threading
 import time
-from contextlib import closing
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager, suppress
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
+from urllib.parse import urlsplit
 
-from signimit_envs.studio.loopback import Json, Page, Watcher
+import numpy as np
 
+from signimit.exceptions import InvalidInputError, MissingDependencyError
+
+Json = dict[str, Any]
+_SERVER = (
+    "import sys; from pathlib import Path\n"
+    "from signimit_envs.studio.web.serving import StudioPlan, serve_studio\n"
+    "serve_studio(StudioPlan(folder=Path(sys.argv[1])), lambda address: print(address, flush=True))"
+)
+_MOVED = 5e-4  # m; a hand that is so far from where it was has begun to move
+_TIMEOUT = 60.0  # s
 _REST = 0.4  # s, for the arm to come to rest
 _SETTLE = 2.0  # s, in which policies are made; people need longer to draw two signs
 _CADENCE = 0.05  # s, between two requests under load; the studio takes 40 a second
 
 
 class Speed(NamedTuple):
-    """What was measured.
+    """How long a page waits, and how smoothly it sees the arm move.
 
     Attributes:
         motion: From a request to the first frame in which the hand has moved, s, one for each answer.
@@ -31,7 +52,7 @@ class Speed(NamedTuple):
 
 
 class Growth(NamedTuple):
-    """Memory under load.
+    """Memory of the studio under load.
 
     Attributes:
         minutes: How long.
@@ -48,8 +69,116 @@ class Growth(NamedTuple):
     real_time: float
 
 
+class PageClient:
+    """HTTP client of the studio; built-in people draw for it."""
+
+    def __init__(self, address: str) -> None:
+        """Remember the address that the studio printed."""
+        self._parts = urlsplit(address)
+        self.requests = 0
+
+    def ask(self, method: str, path: str, body: Json | None = None) -> Any:
+        """Make a request and return the JSON of the answer.
+
+        Raises:
+            InvalidInputError: If the studio refuses.
+        """
+        self.requests += 1
+        content = None if body is None else json.dumps(body)
+        connection = http.client.HTTPConnection(self._parts.hostname or "", self._parts.port, timeout=_TIMEOUT)
+        with closing(connection):
+            connection.request(method, f"{self._parts.path}api/{path}", content, {"Content-Type": "application/json"})
+            answer = connection.getresponse()
+            text = answer.read()
+        if answer.status >= 400:
+            raise InvalidInputError(f"{method} {path}", "an answer", text.decode()[:200])
+        return json.loads(text)
+
+    def begin(self, seed: int) -> Json:
+        """Begin a session of the paper's language."""
+        return dict(self.ask("POST", "sessions", {"seed": seed}))
+
+    def demonstration(self, session: Json) -> Json:
+        """Let built-in people follow the next prompt."""
+        asked = {name: session["next"]["prompt"][name] for name in ("movement", "focus")}
+        asked["attempt"] = session["revision"]
+        where = f"sessions/{session['id']}/people"
+        signs = self.ask("POST", where, {"part": "signs", **asked})["signs"]
+        hand = self.ask("POST", where, {"part": "movement", **asked})["hand"]
+        return {"revision": session["revision"], "signs": signs, "hand": hand}
+
+    def utterance(self, session: Json, attempt: int) -> list[Json]:
+        """Let the built-in interactant ask for something."""
+        request = {"movement": attempt % 3, "focus": attempt // 3 % 3, "attempt": 1000 + attempt}
+        return list(self.ask("POST", f"sessions/{session['id']}/people", {"part": "signs", **request})["signs"])
+
+
+class FrameWatcher:
+    """Socket client that watches the arm in a thread; counts frames and keeps the latest header."""
+
+    def __init__(self, address: str) -> None:
+        """Connect and watch."""
+        self._leaving = ExitStack()
+        try:
+            from websockets.sync.client import connect
+        except ImportError:
+            raise MissingDependencyError("websockets", "studio", "Measuring the studio") from None
+        self._socket = self._leaving.enter_context(connect(address.replace("http", "ws", 1) + "ws", proxy=None))
+        self._socket.send(json.dumps({"type": "watch", "on": True}))
+        self.frames, self.latest = 0, Json()
+        self._came = threading.Condition()
+        self._thread = threading.Thread(target=self._watch, daemon=True)
+        self._thread.start()
+
+    def wait_until_moved(self, place: Any) -> float:
+        """Wait for a frame in which the hand has left a place, and return when it came.
+
+        Raises:
+            InvalidInputError: If it does not come.
+        """
+
+        def moved() -> bool:
+            return bool(self.latest and np.hypot(*np.subtract(self.latest["hand"], place)) > _MOVED)
+
+        with self._came:
+            if not self._came.wait_for(moved, _TIMEOUT):
+                raise InvalidInputError("the arm", "a movement within a minute", "none")
+            return time.perf_counter()
+
+    def close(self) -> None:
+        """Disconnect."""
+        self._leaving.close()
+        self._thread.join()
+
+    def _watch(self) -> None:
+        from websockets.exceptions import ConnectionClosed
+
+        with suppress(ConnectionClosed):
+            for message in self._socket:
+                if not isinstance(message, bytes):
+                    continue
+                size = struct.unpack(">I", message[:4])[0]
+                with self._came:
+                    self.frames, self.latest = self.frames + 1, json.loads(message[4 : 4 + size])
+                    self._came.notify_all()
+
+
+@contextmanager
+def studio_process(folder: Path) -> Iterator[tuple[str, int]]:
+    """Run a studio in a process of its own; give its address and process number."""
+    command = [sys.executable, "-c", _SERVER, str(folder)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            address = process.stdout.readline().strip() if process.stdout else ""
+            if not address:
+                raise InvalidInputError("the studio", "its address", "nothing")
+            yield address, process.pid
+        finally:
+            process.terminate()
+
+
 def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> Speed:
-    """Measure how long a page waits, and how smoothly it sees the arm move.
+    """Measure waits, frame rates and simulated time over time.
 
     Args:
         address: What the studio printed.
@@ -57,7 +186,7 @@ def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> 
         answers: Answers asked for, one by one, of a resting arm.
         seconds: How long frames are counted, with one page and with two.
     """
-    page = Page(address)
+    page = PageClient(address)
     page.ask("GET", "studio")  # waits for OpenGL
     update = []
     for seed in range(sessions):
@@ -69,10 +198,10 @@ def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> 
             update.append(time.perf_counter() - start)
     time.sleep(_SETTLE)
     page.ask("POST", f"sessions/{session['id']}/table", {})
-    with closing(Watcher(address)) as one:
+    with closing(FrameWatcher(address)) as one:
         motion = [_first_motion(page, one, session, attempt) for attempt in range(answers)]
         frames = {1: _frame_rates(page, [one], session, seconds)}
-        with closing(Watcher(address)) as two:
+        with closing(FrameWatcher(address)) as two:
             start = page.ask("GET", "health")
             frames[2] = _frame_rates(page, [one, two], session, seconds)
             real_time = _real_time(start, page.ask("GET", "health"))
@@ -80,18 +209,23 @@ def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> 
 
 
 def measure_growth(address: str, process: int, minutes: float) -> Growth:
-    """Use the studio without pause, far faster than people would, and look at its memory.
+    """Measure the memory of a studio that is used without pause, far faster than by people.
+
+    Args:
+        address: What the studio printed.
+        process: Its process number.
+        minutes: How long.
 
     Raises:
         OSError: If the system does not tell.
     """
-    page, begin, before, count = Page(address), time.perf_counter(), 0.0, 0
+    page, begin, before, count = PageClient(address), time.perf_counter(), 0.0, 0
     start = page.ask("GET", "health")
-    with closing(Watcher(address)), closing(Watcher(address)):
+    with closing(FrameWatcher(address)), closing(FrameWatcher(address)):
         while (elapsed := time.perf_counter() - begin) < 60 * minutes:
             if not before and elapsed > 6 * minutes:
                 before = resident_memory(process)
-            _use(page, count)
+            _use_session(page, count)
             count += 1
         real_time = _real_time(start, page.ask("GET", "health"))
         return Growth(minutes, page.requests, before, resident_memory(process), real_time)
@@ -114,7 +248,7 @@ def resident_memory(process: int) -> float:
     raise OSError("the system does not tell how large a process is")
 
 
-def _first_motion(page: Page, watcher: Watcher, session: Json, attempt: int) -> float:
+def _first_motion(page: PageClient, watcher: FrameWatcher, session: Json, attempt: int) -> float:
     signs = page.utterance(session, attempt)
     page.ask("POST", f"sessions/{session['id']}/stop", {})
     time.sleep(_REST)
@@ -123,7 +257,7 @@ def _first_motion(page: Page, watcher: Watcher, session: Json, attempt: int) -> 
     return watcher.wait_until_moved(place) - start
 
 
-def _frame_rates(page: Page, watchers: list[Watcher], session: Json, seconds: float) -> list[float]:
+def _frame_rates(page: PageClient, watchers: list[FrameWatcher], session: Json, seconds: float) -> list[float]:
     page.ask("POST", f"sessions/{session['id']}/ask", {"signs": page.utterance(session, 0)})
     before, start = [watcher.frames for watcher in watchers], time.perf_counter()
     time.sleep(seconds)
@@ -131,8 +265,8 @@ def _frame_rates(page: Page, watchers: list[Watcher], session: Json, seconds: fl
     return [(watcher.frames - count) / elapsed for watcher, count in zip(watchers, before, strict=True)]
 
 
-def _use(page: Page, seed: int) -> None:
-    """Do what people do with a session, all of it."""
+def _use_session(page: PageClient, seed: int) -> None:
+    """Teach, undo, redo, ask, judge and compare in a new session."""
     session = page.begin(seed)
     base = f"sessions/{session['id']}"
     for _ in range(6):

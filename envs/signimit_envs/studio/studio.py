@@ -1,4 +1,4 @@
-"""The studio: sessions on a shelf, an arm that is alive, a camera, and those who watch."""
+"""State of the server: sessions, the live arm, the camera and the pages that watch."""
 
 from __future__ import annotations
 
@@ -19,37 +19,32 @@ from numpy.typing import NDArray
 from signimit.teaching.languages import Request
 from signimit.teaching.scenes import sample_hand, sample_scene
 from signimit_envs.arm.scene import CONTROL_RATE
-from signimit_envs.studio.arm.camera import Camera
+from signimit_envs.studio.arm.camera import OPENGL_PATIENCE, Camera
 from signimit_envs.studio.arm.live_arm import LiveArm
-from signimit_envs.studio.arm.live_state import Errand, TrackPart
+from signimit_envs.studio.arm.live_state import Task, TrackPart
 from signimit_envs.studio.arm.viewers import Viewers
 from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.open_session import NotFoundError, OpenSession
 from signimit_envs.studio.page.belief import understood_text
-from signimit_envs.studio.page.figure_cache import Album
+from signimit_envs.studio.page.pictures import FigureCache
 from signimit_envs.studio.store.events import Asked, Created, Signs
 from signimit_envs.studio.store.history import History
-from signimit_envs.studio.store.open_session import OpenSession
-from signimit_envs.studio.store.session_store import Shelf
+from signimit_envs.studio.store.sessions import SessionStore
 
-_PATIENCE = 60.0  # s, for OpenGL to be found
-_KEPT_OPEN = 4  # sessions; an older one is read again when somebody comes back to it
+_KEPT_OPEN = 4  # sessions in memory; an older one is read again when a page asks for it
 Result = TypeVar("Result")
 _log = logging.getLogger(__name__)
 
 
-class NotHereError(LookupError):
-    """There is no such session, demonstration or answer."""
-
-
 class BusyError(RuntimeError):
-    """Too much is being made already."""
+    """Too many figures and films wait already."""
 
 
 class Studio:
     """Everything that lives as long as the server."""
 
     def __init__(self, folder: Path, seed: int = 0) -> None:
-        """Take the folder of sessions and set the table.
+        """Lock the folder of sessions and set the table.
 
         Args:
             folder: Where sessions are kept.
@@ -58,34 +53,41 @@ class Studio:
         Raises:
             InvalidInputError: If another studio uses the folder.
         """
-        self.shelf = Shelf(folder)
-        self.viewers, self.album = Viewers(), Album()
-        self.arm = LiveArm(self._record)
+        self.store = SessionStore(folder)
+        self.viewers, self.figures = Viewers(), FigureCache()
+        self.arm = LiveArm(lambda part: self._recorder.submit(self._write, part))
         self.camera = Camera(lambda: self.arm.state, lambda: self.viewers.watching, self.viewers.publish)
         self.demo: str | None = None
         self._waiting = 0
         self._rng = np.random.default_rng(seed)
         self._learner = ThreadPoolExecutor(1, "learner")
         self._recorder = ThreadPoolExecutor(1, "recorder")
-        self._darkroom = ThreadPoolExecutor(1, "darkroom")
+        self._figure_pool = ThreadPoolExecutor(1, "figures")
         self._open: WeakValueDictionary[str, OpenSession] = WeakValueDictionary()
         self._recent: deque[OpenSession] = deque(maxlen=_KEPT_OPEN)
         self._opening = asyncio.Lock()
 
     def start(self) -> None:
-        """Let arm and camera work."""
+        """Start the threads of arm and camera."""
+
+        def import_matplotlib() -> (
+            None
+        ):  # before a figure is asked for, and after the first page, which waits for OpenGL
+            self.camera.unavailable_reason(OPENGL_PATIENCE)
+            importlib.import_module("signimit.plots.paper")
+
         self.arm.start()
         self.camera.start()
-        self._darkroom.submit(self._prepare_figures)
+        self._figure_pool.submit(import_matplotlib)
 
     def close(self) -> None:
         """End everything; what the arm did last is written first."""
         self.camera.close()
         self.arm.close()
         self._learner.shutdown(cancel_futures=True)
-        self._darkroom.shutdown(cancel_futures=True)
+        self._figure_pool.shutdown(cancel_futures=True)
         self._recorder.shutdown()
-        self.shelf.close()
+        self.store.close()
 
     async def create(self, title: str, language: str, objects: int, seed: int | None = None) -> OpenSession:
         """Begin a session."""
@@ -93,21 +95,21 @@ class Studio:
             seed = int(self._rng.integers(2**32))
         now = time.strftime("%Y-%m-%dT%H:%M:%S")
         created = Created(title or f"Session of {now.replace('T', ' ')}", now, language, objects, seed)
-        return await self.open(await asyncio.to_thread(self.shelf.create, created))
+        return await self.open(await asyncio.to_thread(self.store.create, created))
 
     async def open(self, name: str) -> OpenSession:
-        """Return a session; whoever asks for the same name at the same time gets the same object.
+        """Return a session; requests for one name get one object, also at the same time.
 
         Raises:
-            NotHereError: If there is none.
+            NotFoundError: If there is none.
         """
         async with self._opening:
             session = self._open.get(name)
             if session is None:
-                if name not in self.shelf:
-                    raise NotHereError("There is no such session.")
-                history: History = await asyncio.to_thread(self.shelf.read, name)
-                session = OpenSession(name, self.shelf, history, self._learner)
+                if name not in self.store:
+                    raise NotFoundError("There is no such session.")
+                history: History = await asyncio.to_thread(self.store.read, name)
+                session = OpenSession(name, self.store, history, self._learner)
                 self._open[name] = session
             if session not in self._recent:
                 self._recent.append(session)
@@ -132,11 +134,11 @@ class Studio:
         policy = await asyncio.to_thread(model.policy, response.movement)
         understood = response.movement, response.focus, response.confidence
         number = len((await session.note(Asked(signs, *understood, request))).answers) - 1
-        self.arm.obey(Errand(session.name, number, policy, response.focus, understood_text(*understood)))
+        self.arm.obey(Task(session.name, number, policy, response.focus, understood_text(*understood)))
         return number
 
-    async def develop(self, work: Callable[[], Result]) -> Result:
-        """Make a figure or a film: one at a time, or the arm would get too little of the processor.
+    async def render(self, work: Callable[[], Result]) -> Result:
+        """Make a figure or a film in a thread, one at a time, or the arm would get too little of the processor.
 
         Raises:
             BusyError: If too many wait already.
@@ -145,32 +147,24 @@ class Studio:
             raise BusyError(f"At most {LIMITS.waiting} figures and films are made at once; try again.")
         self._waiting += 1
         try:
-            return await asyncio.get_running_loop().run_in_executor(self._darkroom, work)
+            return await asyncio.get_running_loop().run_in_executor(self._figure_pool, work)
         finally:
             self._waiting -= 1
 
     def changed(self, session: OpenSession) -> None:
-        """Tell all pages that a session is not what it was."""
+        """Tell all pages that a session has changed."""
         history = session.history
         news = {"type": "changed", "session": session.name, "revision": history.revision, "events": history.events}
         self.viewers.tell(news)
 
-    def _prepare_figures(self) -> None:
-        """Import matplotlib before somebody waits for a figure, and after the first page, which waits for OpenGL."""
-        self.camera.why_blind(_PATIENCE)
-        importlib.import_module("signimit.plots.paper")
-
-    def _record(self, part: TrackPart) -> None:
-        """Write a second of an answer to the disk, in a thread that may wait for it."""
-        self._recorder.submit(self._write, part)
-
     def _write(self, part: TrackPart) -> None:
+        """Write a second of an answer to the disk, in a thread that may wait for it."""
         line = {
             "first": part.first,
             "rate": CONTROL_RATE,
             **{name: np.round(getattr(part, name), 5).tolist() for name in ("path", "joints", "objects")},
         }
         try:
-            self.shelf.append_track(part.errand.session, part.errand.answer, line)
+            self.store.append_track(part.task.session, part.task.answer, line)
         except OSError:
             _log.exception("what the arm did could not be written")

@@ -15,7 +15,7 @@ pytest.importorskip("websockets", reason="the studio needs signimit[studio]")
 httpx = pytest.importorskip("httpx", reason="the studio's tests need httpx")
 
 from signimit.strokes import Stroke  # noqa: E402
-from signimit_envs.studio.store.events import Shown  # noqa: E402
+from signimit_envs.studio.store.events import DrawnDemonstration  # noqa: E402
 from signimit_envs.studio.web.serving import StudioPlan, running_studio  # noqa: E402
 
 Json = dict[str, Any]
@@ -103,13 +103,13 @@ def session(page: Page) -> Json:
 
 
 @pytest.fixture
-def shown() -> Callable[[], Shown]:
+def shown() -> Callable[[], DrawnDemonstration]:
     """Makes demonstrations, no two alike."""
     numbers = itertools.count()
 
-    def make() -> Shown:
+    def make() -> DrawnDemonstration:
         rng = np.random.default_rng(next(numbers))
         strokes = [Stroke(np.cumsum(rng.normal(0, 0.02, (9, 2)), axis=0), np.linspace(0, 1, 9)) for _ in range(3)]
-        return Shown((strokes[0], strokes[1]), rng.uniform(-0.2, 0.2, (3, 2)), strokes[2])
+        return DrawnDemonstration((strokes[0], strokes[1]), rng.uniform(-0.2, 0.2, (3, 2)), strokes[2])
 
     return make

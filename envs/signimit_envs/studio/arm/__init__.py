@@ -1,1 +1,1 @@
-"""A part of the studio."""
+"""The arm of the studio: physics in real time, the camera on it, and the pages that watch."""

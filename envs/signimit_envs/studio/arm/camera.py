@@ -1,4 +1,4 @@
-"""The studio's camera: draws what the arm does, once for all who watch, in a thread that owns OpenGL."""
+"""The camera: renders the live arm once for all pages that watch, in a thread that owns OpenGL."""
 
 from __future__ import annotations
 
@@ -29,12 +29,13 @@ FRAME_RATE = 30.0  # 1/s, while something moves
 IDLE_RATE = 4.0  # 1/s, while nothing does
 HAND_HEIGHT = 0.06  # m above the table, of the hand's tip
 _QUALITY = 80
-_MOST_STAGES = 2
+_MOST_RENDERERS = 2  # one for each number of objects; each holds a compiled scene
+OPENGL_PATIENCE = 60.0  # s, for OpenGL to be found
 _log = logging.getLogger(__name__)
 
 
 def picture_mapping() -> dict[str, Any]:
-    """Say how pixels of a picture and metres on the table and at the height of the hand go together."""
+    """Return how pixels of a picture map to metres, on the table and at the height of the hand."""
     model = compile_scene()
     number = model.camera("top").id
     x, y, height = model.cam_pos[number]
@@ -55,26 +56,26 @@ def object_colours() -> list[str]:
 
 
 class Camera:
-    """Draws frames of the live arm while somebody watches, and still pictures for those who ask."""
+    """Renders frames of the live arm while a page watches, and still pictures of tables."""
 
     def __init__(self, look: Callable[[], LiveState], watched: Callable[[], bool], publish: Callable[[bytes], object]):
         """Remember what to draw; OpenGL is looked for in the camera's own thread.
 
         Args:
             look: Returns the state of the arm.
-            watched: Tells whether anybody watches.
+            watched: Tells whether a page watches.
             publish: Takes a frame, called in the camera's thread.
         """
         self._look, self._watched, self._publish = look, watched, publish
         self._wanted: queue.SimpleQueue[tuple[NDArray[np.float64], Future[bytes]]] = queue.SimpleQueue()
         self._stop, self._ready = threading.Event(), threading.Event()
         self._thread = threading.Thread(target=self._run, name="camera", daemon=True)
-        self._stages: dict[int, SceneRenderer] = {}
-        self._blind: RenderingError | None = None
+        self._renderers: dict[int, SceneRenderer] = {}
+        self._unavailable: RenderingError | None = None
         self.frames = 0
 
     def start(self) -> None:
-        """Begin to look."""
+        """Start the thread."""
         self._thread.start()
 
     def close(self) -> None:
@@ -83,13 +84,13 @@ class Camera:
         if self._thread.is_alive():
             self._thread.join()
 
-    def why_blind(self, patience: float = 0.0) -> str:
-        """Say why there are no pictures, waiting so many seconds for the first one; empty if there are."""
+    def unavailable_reason(self, patience: float = 0.0) -> str:
+        """Say why there are no pictures, waiting so many seconds for the first one; empty if there are some."""
         self._ready.wait(patience)
-        return str(self._blind or "")
+        return str(self._unavailable or "")
 
     def still(self, objects: NDArray[np.float64]) -> Future[bytes]:
-        """Ask for a JPEG of a table with objects, shape (O, 2), m, the arm out of the way.
+        """Render a JPEG of a table with objects, shape (O, 2), m, the arm out of the way.
 
         Returns:
             The picture, later; a RenderingError if there is no OpenGL.
@@ -102,12 +103,12 @@ class Camera:
         try:
             self._jpeg(self._look().objects, PARKED)
         except RenderingError as error:
-            self._blind = error
+            self._unavailable = error
             _log.warning("no pictures: %s", error)
         self._ready.set()
         due, before, drawn_at = time.perf_counter(), None, 0.0
         while not self._stop.is_set():
-            self._draw_stills()
+            self._render_stills()
             state, now = self._look(), time.perf_counter()
             still = before is not None and is_alike(before, state)
             if self._watched() and not (still and now - drawn_at < 1.0 / IDLE_RATE):
@@ -116,10 +117,10 @@ class Camera:
                 self.frames += 1
             due = max(due + 1.0 / FRAME_RATE, time.perf_counter() - 1.0 / FRAME_RATE)
             self._stop.wait(max(0.0, due - time.perf_counter()))
-        for stage in self._stages.values():
-            stage.close()
+        for renderer in self._renderers.values():
+            renderer.close()
 
-    def _draw_stills(self) -> None:
+    def _render_stills(self) -> None:
         while not self._wanted.empty():
             objects, future = self._wanted.get()
             try:
@@ -129,43 +130,43 @@ class Camera:
 
     def _frame(self, state: LiveState) -> bytes:
         picture = b""
-        if self._blind is None:
+        if self._unavailable is None:
             try:
                 picture = self._jpeg(state.objects, state.joints)
             except Exception as error:  # whatever OpenGL does, the page can draw the table itself
                 _log.exception("a frame could not be drawn; going on without pictures")
-                self._blind = RenderingError(f"OpenGL failed ({error})", INSTALL)
+                self._unavailable = RenderingError(f"OpenGL failed ({error})", INSTALL)
         header = json.dumps(frame_header(state), separators=(",", ":")).encode()
         return struct.pack(">I", len(header)) + header + picture
 
     def _jpeg(self, objects: NDArray[np.float64], joints: NDArray[np.float64]) -> bytes:
-        if self._blind is not None:
-            raise RenderingError(self._blind.reason, self._blind.remedy)
+        if self._unavailable is not None:
+            raise RenderingError(self._unavailable.reason, self._unavailable.remedy)
         shot = Shot(phase="", caption="", objects=objects, joints=joints)
         encoded = io.BytesIO()
-        Image.fromarray(self._stage(len(objects)).picture(shot, "top")).save(encoded, "JPEG", quality=_QUALITY)
+        Image.fromarray(self._renderer(len(objects)).picture(shot, "top")).save(encoded, "JPEG", quality=_QUALITY)
         return encoded.getvalue()
 
-    def _stage(self, objects: int) -> SceneRenderer:
-        if objects not in self._stages:
-            while len(self._stages) >= _MOST_STAGES:
-                self._stages.pop(next(iter(self._stages))).close()
-            self._stages[objects] = SceneRenderer(objects, WIDTH, HEIGHT)
-        return self._stages[objects]
+    def _renderer(self, objects: int) -> SceneRenderer:
+        if objects not in self._renderers:
+            while len(self._renderers) >= _MOST_RENDERERS:
+                self._renderers.pop(next(iter(self._renderers))).close()
+            self._renderers[objects] = SceneRenderer(objects, WIDTH, HEIGHT)
+        return self._renderers[objects]
 
 
 def frame_header(state: LiveState) -> dict[str, Any]:
-    """Return what is told beside each picture."""
-    errand = state.errand
+    """Return the JSON that is sent beside each picture."""
+    task = state.task
     return {
         "session": state.session,
-        "answer": errand.answer if errand else None,
+        "answer": task.answer if task else None,
         "time": round(state.time, 2),
         "hand": np.round(state.hand, 4).tolist(),
         "objects": np.round(state.objects, 4).tolist(),
         "trail": state.trail,
-        "text": errand.text if errand else "",
-        "focus": errand.focus if errand else None,
-        "moving": errand is not None,
+        "text": task.text if task else "",
+        "focus": task.focus if task else None,
+        "moving": task is not None,
         "shoved": state.shoved,
     }

@@ -1,4 +1,4 @@
-"""The simulated arm, alive: physics in real time in a thread of its own; it obeys, and can be interfered with."""
+"""The live arm: physics in real time in a thread, with objects that are dragged and a hand that is pushed."""
 
 from __future__ import annotations
 
@@ -8,26 +8,97 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 from typing import Any
 
+import mujoco
 import numpy as np
 
 from signimit_envs.arm.scene import CONTROL_RATE, WORKSPACE, object_bodies
 from signimit_envs.sessions.reproduction import hand_action, hand_velocities
-from signimit_envs.studio.arm.external_force import Push
-from signimit_envs.studio.arm.live_state import Array, Errand, LiveState, TrackPart
-from signimit_envs.studio.arm.real_time_clock import Pace
+from signimit_envs.studio.arm.live_state import Array, LiveState, Task, TrackPart
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 OBJECT_WIDTH = 0.08  # m; the middles of two objects that touch are so far apart
 ANSWER_SECONDS = 60.0  # after which the arm rests
 TRAIL_SECONDS, TRAIL_STRIDE = 8.0, 2  # of the past; control steps between its points
 PART_STEPS = CONTROL_RATE  # of a track that are handed over at once
+PUSH_SECONDS = 0.25
+FASTEST_PUSH = 1.0  # m/s, drift; more is cut to it
+PUSH_SHARE = 0.9  # of what a drive can hold against; beyond it the arm would be thrown, not pushed
+FASTEST_CATCH_UP = 2.0  # times real time, while a delay is made up for
+LONGEST_DELAY = 5.0  # s; what is later than that was suspended, not held up
 _log = logging.getLogger(__name__)
 
 
+class RealTimeClock:
+    """Keeps simulated time in step with the clock; it reads no clock, it is told the time.
+
+    A step that was held up is followed by the same steps as ever, closer together, until simulated time has
+    caught up: no step is left out or made longer, and nothing runs faster than twice real time, so a viewer sees a
+    hand that hurries for as long as it was held up, and never one that jumps. A delay past `LONGEST_DELAY` (a
+    machine that slept) is not made up for but counted, as nobody wants to see seconds of it.
+
+    Attributes:
+        lost: Time that is not made up for, s.
+    """
+
+    def __init__(self, period: float, now: float) -> None:
+        """Begin.
+
+        Args:
+            period: Time from one step to the next, s.
+            now: The time on a clock that never goes back, s.
+        """
+        self._period = period
+        self._due = self._start = now
+        self.lost = 0.0
+
+    def wait(self, now: float) -> float:
+        """Return how long to wait before the next step begins, s, when one has just ended."""
+        self._due += self._period
+        delay = now - self._due
+        if delay > LONGEST_DELAY:
+            self.lost += delay
+            self._due = now
+        self._start = max(self._due, self._start + self._period / FASTEST_CATCH_UP, now)
+        return self._start - now
+
+
+@dataclass(frozen=True, eq=False)
+class ExternalForce:
+    """A force at the hand that makes it drift for a while although the drives hold against it.
+
+    Attributes:
+        velocity: With what velocity the hand drifts, about, shape (2,), m/s.
+        steps: Control steps that it still lasts.
+    """
+
+    velocity: Array
+    steps: int = round(PUSH_SECONDS * CONTROL_RATE)
+
+    def apply(self, model: mujoco.MjModel, data: mujoco.MjData) -> ExternalForce | None:
+        """Set the force for the next control step, and return what is left of it; none if it is over.
+
+        A velocity drive resists like a damper, so the force that makes the hand drift with velocity v is
+        (J K⁻¹ Jᵀ)⁻¹ v with the drives' gains K.
+        """
+        if self.steps <= 0:
+            data.qfrc_applied[:] = 0.0
+            return None
+        jacobian = np.zeros((3, model.nv))
+        mujoco.mj_jacSite(model, data, jacobian, None, model.site("hand").id)
+        planar, gains = jacobian[:2], model.actuator_gainprm[:, 0]
+        mobility = planar / gains @ planar.T + 1e-6 * np.eye(2)
+        drift = self.velocity * min(1.0, FASTEST_PUSH / max(1e-9, float(np.hypot(*self.velocity))))
+        torques = planar.T @ np.linalg.solve(mobility, drift)
+        most = PUSH_SHARE * model.actuator_forcerange[:, 1]
+        data.qfrc_applied[:] = torques * min(1.0, float((most / np.maximum(np.abs(torques), 1e-9)).min()))
+        return replace(self, steps=self.steps - 1)
+
+
 class LiveArm:
-    """One table with one arm. Whoever commands it returns at once; its thread obeys at the next control step."""
+    """One table with one arm. Commands return at once; the arm's thread carries them out at the next control step."""
 
     def __init__(self, record: Callable[[TrackPart], object]) -> None:
         """Set the table.
@@ -38,20 +109,21 @@ class LiveArm:
         self._record = record
         self._inbox: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._live, name="live arm", daemon=True)
-        self._steps, self._born = 0, time.perf_counter()
-        self._pace = Pace(1.0 / CONTROL_RATE, self._born)
+        self._thread = threading.Thread(target=self._run, name="live arm", daemon=True)
+        self._steps, self._started_at = 0, time.perf_counter()
+        self._clock = RealTimeClock(1.0 / CONTROL_RATE, self._started_at)
         self._session: str | None = None
-        self._errand: Errand | None = None
-        self._push: Push | None = None
+        self._objects: Array
+        self._task: Task | None = None
+        self._force: ExternalForce | None = None
         self._track: list[tuple[Array, Array, Array]] = []
-        self._told = 0
+        self._recorded = 0
         self._trail: deque[tuple[float, float]] = deque(maxlen=round(TRAIL_SECONDS * CONTROL_RATE / TRAIL_STRIDE))
         self._set_table(3)
         self._put(None, np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]]), np.zeros(2))
 
     def start(self) -> None:
-        """Come alive."""
+        """Start the thread."""
         self._thread.start()
 
     def close(self) -> None:
@@ -71,12 +143,21 @@ class LiveArm:
         """Give the table to a session: objects, shape (O, 2), m, and the resting hand, shape (2,), m, in place."""
         self._inbox.put(lambda: self._put(session, objects, hand))
 
-    def obey(self, errand: Errand) -> None:
-        """Begin an errand; the one before ends."""
-        self._inbox.put(lambda: self._begin(errand))
+    def obey(self, task: Task) -> None:
+        """Begin a task, if its session still has the table; the task before ends."""
+
+        def begin() -> None:
+            if task.session != self._session:
+                return
+            self._end()
+            self._trail.clear()
+            self._task, self._recorded = task, 0
+            self._move = hand_velocities(task.policy)
+
+        self._inbox.put(begin)
 
     def rest(self) -> None:
-        """End the errand and hold still."""
+        """End the task and hold still."""
         self._inbox.put(self._end)
 
     def drag(self, number: int, place: Array) -> None:
@@ -84,36 +165,53 @@ class LiveArm:
 
         No object is put where another is: it slides around it.
         """
-        self._inbox.put(lambda: self._drag(number, place))
+
+        def move() -> None:
+            if number not in range(len(self._bodies)):
+                return
+            others = np.delete(self._objects, number, axis=0)
+            wanted = np.clip(_place_beside(np.clip(place, -WORKSPACE, WORKSPACE), others), -WORKSPACE, WORKSPACE)
+            if _distances(wanted, others).min() < OBJECT_WIDTH - 1e-9:  # in a corner: it stays where it was
+                return
+            moved = self._objects.copy()
+            moved[number] = wanted
+            self._objects = moved
+            self._place_objects()
+
+        self._inbox.put(move)
 
     def shove(self, velocity: Array) -> None:
         """Push the hand for a moment, so that it drifts with about a velocity, shape (2,), m/s."""
-        self._inbox.put(lambda: self._shove(velocity))
+
+        def push() -> None:
+            self._force = ExternalForce(velocity)
+
+        self._inbox.put(push)
 
     def step(self) -> None:
         """Do what was commanded, then one control step. The arm's own thread calls this, once the arm is started."""
         while not self._inbox.empty():
             self._inbox.get()()
         env = self._env
-        if self._push is not None:
-            self._push = self._push.apply(env.model, env.data)
+        if self._force is not None:
+            self._force = self._force.apply(env.model, env.data)
         velocity = np.zeros(2)
-        if self._errand is not None:
-            velocity = self._move(self._state.hand - self._objects[self._errand.focus])
+        if self._task is not None:
+            velocity = self._move(self._state.hand - self._objects[self._task.focus])
         observation, _, failed, _, _ = env.step(hand_action(velocity))
         if failed:  # it was put back as it was when the table was set
-            self._push = None
+            self._force = None
             self._place_objects()
         self._steps += 1
-        if self._steps % TRAIL_STRIDE == 0 and self._errand is not None:
+        if self._steps % TRAIL_STRIDE == 0 and self._task is not None:
             self._trail.append((round(float(observation["hand"][0]), 4), round(float(observation["hand"][1]), 4)))
-        self._look(observation)
-        if self._errand is not None:
-            self._remember()
+        self._update_state(observation)
+        if self._task is not None:
+            self._record_step()
 
-    def _live(self) -> None:
-        self._born = time.perf_counter()
-        self._pace = Pace(1.0 / CONTROL_RATE, self._born)
+    def _run(self) -> None:
+        self._started_at = time.perf_counter()
+        self._clock = RealTimeClock(1.0 / CONTROL_RATE, self._started_at)
         failing = False
         while not self._stop.is_set():
             try:
@@ -122,36 +220,36 @@ class LiveArm:
             except Exception:  # whatever it is, an arm that rests is better than a thread that died
                 if not failing:  # else the log would fill by 50 a second
                     _log.exception("the arm failed and rests")
-                self._errand, failing = None, True
-            self._stop.wait(self._pace.wait(time.perf_counter()))
+                self._task, failing = None, True
+            self._stop.wait(self._clock.wait(time.perf_counter()))
 
-    def _look(self, observation: dict[str, Any]) -> None:
+    def _update_state(self, observation: dict[str, Any]) -> None:
         self._state = LiveState(
             session=self._session,
-            errand=self._errand,
+            task=self._task,
             time=self._steps / CONTROL_RATE,
-            clock=time.perf_counter() - self._born,
+            clock=time.perf_counter() - self._started_at,
             joints=observation["joints"],
             hand=observation["hand"],
             objects=self._objects,
             trail=tuple(self._trail),
-            shoved=self._push is not None,
-            lost=self._pace.lost,
+            shoved=self._force is not None,
+            lost=self._clock.lost,
         )
 
-    def _remember(self) -> None:
+    def _record_step(self) -> None:
         state = self._state
         self._track.append((state.hand, state.joints, state.objects))
-        self._told += 1
+        self._recorded += 1
         if len(self._track) == PART_STEPS:
             self._hand_over()
-        if self._told >= ANSWER_SECONDS * CONTROL_RATE:
+        if self._recorded >= ANSWER_SECONDS * CONTROL_RATE:
             self._end()
 
     def _hand_over(self) -> None:
-        if self._errand is not None and self._track:
+        if self._task is not None and self._track:
             parts = (np.array(part) for part in zip(*self._track, strict=True))
-            self._record(TrackPart(self._errand, self._told - len(self._track), *parts))
+            self._record(TrackPart(self._task, self._recorded - len(self._track), *parts))
         self._track = []
 
     def _set_table(self, objects: int) -> None:
@@ -164,46 +262,23 @@ class LiveArm:
             self._env.close()
             self._set_table(len(objects))
         observation, _ = self._env.reset(seed=0, options={"objects": objects, "hand": hand})
-        self._session, self._objects, self._push = session, observation["objects"], None
+        self._session, self._objects, self._force = session, observation["objects"], None
         self._trail.clear()
-        self._look(observation)
-
-    def _begin(self, errand: Errand) -> None:
-        if errand.session != self._session:  # somebody else has the table by now
-            return
-        self._end()
-        self._trail.clear()
-        self._errand, self._told = errand, 0
-        self._move = hand_velocities(errand.policy)
+        self._update_state(observation)
 
     def _end(self) -> None:
         self._hand_over()
-        self._errand = None
-
-    def _drag(self, number: int, place: Array) -> None:
-        if number not in range(len(self._bodies)):
-            return
-        others = np.delete(self._objects, number, axis=0)
-        wanted = np.clip(_beside(np.clip(place, -WORKSPACE, WORKSPACE), others), -WORKSPACE, WORKSPACE)
-        if _distances(wanted, others).min() < OBJECT_WIDTH - 1e-9:  # in a corner: it stays where it was
-            return
-        moved = self._objects.copy()
-        moved[number] = wanted
-        self._objects = moved
-        self._place_objects()
+        self._task = None
 
     def _place_objects(self) -> None:
         self._env.data.mocap_pos[self._bodies, :2] = self._objects
-
-    def _shove(self, velocity: Array) -> None:
-        self._push = Push(velocity)
 
 
 def _distances(place: Array, others: Array) -> Array:
     return np.asarray(np.hypot(*(others - place).T))
 
 
-def _beside(place: Array, others: Array) -> Array:
+def _place_beside(place: Array, others: Array) -> Array:
     """Return where an object comes to lie that is put at a place, by the nearest of the others, shape (O, 2), m."""
     nearest = others[np.argmin(_distances(place, others))]
     away = place - nearest

@@ -1,4 +1,4 @@
-"""What the live arm does, where everything is, and what is kept of it."""
+"""Values of the live arm: its task, its state after a control step, and the parts of its track."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from signimit.policies import Policy
 Array = NDArray[np.float64]
 
 
-class Errand(NamedTuple):
-    """What the arm is to do.
+class Task(NamedTuple):
+    """An answer that the arm is to carry out.
 
     Attributes:
         session: Name of the session that asks.
@@ -32,17 +32,17 @@ class Errand(NamedTuple):
 
 
 class TrackPart(NamedTuple):
-    """A second of an answer, or the rest of it.
+    """A second of the track of an answer, or the rest of it.
 
     Attributes:
-        errand: What the arm was doing.
+        task: The task that it belongs to.
         first: Number of the control step that the part begins with.
         path: Where the hand was, shape (T, 2), m.
         joints: The joint angles, shape (T, 3), rad.
         objects: Where the objects were, shape (T, O, 2), m.
     """
 
-    errand: Errand
+    task: Task
     first: int
     path: Array
     joints: Array
@@ -55,19 +55,19 @@ class LiveState:
 
     Attributes:
         session: Name of the session whose table it is.
-        errand: What the arm does; none while it rests.
-        time: Simulated time since the arm came alive, s.
+        task: What the arm carries out; none while it rests.
+        time: Simulated time since the arm was started, s.
         clock: Time since then on the clock, s.
         joints: Joint angles, shape (3,), rad.
         hand: Position of the hand, shape (2,), m.
         objects: Object positions, shape (O, 2), m.
-        trail: Where the hand was, the latest last.
-        shoved: Whether somebody is pushing it.
+        trail: Where the hand was, the latest last, m.
+        shoved: Whether a push lasts.
         lost: How much of that time was never simulated, as the whole machine was held up, s.
     """
 
     session: str | None
-    errand: Errand | None
+    task: Task | None
     time: float
     clock: float
     joints: Array
@@ -79,9 +79,9 @@ class LiveState:
 
 
 def is_alike(one: LiveState, other: LiveState) -> bool:
-    """Tell whether two states look the same."""
+    """Tell whether two states look the same: a frame of the one will do for the other."""
     return (
-        one.errand is other.errand
+        one.task is other.task
         and one.session == other.session
         and np.array_equal(one.objects, other.objects)
         and float(np.abs(one.joints - other.joints).max()) < 1e-5

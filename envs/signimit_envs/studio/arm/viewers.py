@@ -1,4 +1,4 @@
-"""Who watches: every page gets the newest frame it has time for, and all news."""
+"""Mailboxes of the pages that watch: the newest frame that each has time for, and all messages."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import threading
 from collections import deque
 from typing import Any
 
-_MOST_NEWS = 100  # not yet sent to a page; one that is so far behind hears the latest only
+_MOST_NEWS = 100  # messages not yet sent to a page; one that is so far behind gets the latest only
 
 
 class Viewer:
-    """One page's mailbox. Any thread may put something in; the page's own event loop takes it out."""
+    """Mailbox of a page. Any thread may put something in; the page's own event loop takes it out."""
 
     def __init__(self) -> None:
         """Start empty, in the running event loop."""
@@ -52,37 +52,37 @@ class Viewer:
 
 
 class Viewers:
-    """All pages."""
+    """The mailboxes of all pages."""
 
     def __init__(self) -> None:
-        """Start with nobody."""
+        """Start without pages."""
         self._all: set[Viewer] = set()
         self._lock = threading.Lock()
         self._standing: str | None = None
 
     def __len__(self) -> int:
-        """Return how many there are."""
+        """Return the number of pages."""
         return len(self._all)
 
     @property
     def watching(self) -> bool:
-        """Whether anybody wants frames."""
+        """Whether a page wants frames."""
         return any(viewer.watching for viewer in self._listed())
 
     def add(self, viewer: Viewer) -> None:
-        """Take a page in."""
+        """Add a page."""
         with self._lock:
             self._all.add(viewer)
         if self._standing is not None:
             viewer.put_news(self._standing)
 
     def remove(self, viewer: Viewer) -> None:
-        """Let a page go; may be called again."""
+        """Remove a page; may be called again."""
         with self._lock:
             self._all.discard(viewer)
 
     def publish(self, frame: bytes) -> None:
-        """Offer a frame to all who watch."""
+        """Offer a frame to all pages that watch."""
         for viewer in self._listed():
             if viewer.watching:
                 viewer.put_frame(frame)

@@ -1,1 +1,1 @@
-"""A part of the studio."""
+"""What the studio's page shows: beliefs, prompts, figures, films and files, as JSON and bytes."""

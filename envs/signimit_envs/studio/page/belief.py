@@ -1,4 +1,4 @@
-"""What the imitator believes after each demonstration, as the page is told."""
+"""JSON of a model for the page: movements, words, their order, doubts, and the demonstration it wishes for."""
 
 from __future__ import annotations
 
@@ -17,27 +17,40 @@ _MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen
 
 
 def belief_json(model: ImitationModel) -> dict[str, Any]:
-    """Say what a model, of a method that has probabilities, has understood; numbers are rounded for the screen."""
+    """Return what a model of a method with probabilities has learned; numbers are rounded for the screen."""
     reasons, order = model.explain(), model.word_order
+    order_text = f"The {ordinal(order.focus)} sign names the object, the {ordinal(order.movement)} the movement."
+    object_words = [
+        {"object": i, "strokes": _signs_json(model, order.focus, model.focus == i)}
+        for i in range(model.demonstrations.objects.shape[1])
+    ]
+    movement_words = [
+        {
+            "movement": m,
+            "strokes": _signs_json(model, order.movement, model.labels == m),
+            "drawings": [_rounded(resample_path(path, _DRAWING_POINTS)) for path in found.paths[-_MOST_EXAMPLES:]],
+        }
+        for m, found in enumerate(model.movements)
+    ]
     return {
         "movements": [{"number": m, "members": list(found.members)} for m, found in enumerate(model.movements)],
         "labels": model.labels.tolist(),
         "focus": model.focus.tolist(),
         "focus_probability": _rounded(reasons.focus_probability),
         "movement_probability": _rounded(reasons.movement_probability),
-        "word_order": {"focus": order.focus, "movement": order.movement, "text": _order_text(model)},
+        "word_order": {"focus": order.focus, "movement": order.movement, "text": order_text},
         "word_orders": [
             {"focus": other.focus, "movement": other.movement, "loss": round(loss, 2)}
             for other, loss in reasons.word_orders
         ],
-        "lexicon": {"objects": _object_words(model), "movements": _movement_words(model)},
+        "lexicon": {"objects": object_words, "movements": movement_words},
         "doubtful": doubts(reasons),
         "text": model.summary(),
     }
 
 
 def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
-    """Say what the imitator would like to see next."""
+    """Return the demonstration that would teach the model most, with a sentence."""
     asked = f"movement {wish.movement} about the {object_name(wish.focus)} object"
     words = [f"the {ordinal(word)} of demonstration {number}" for word, number in enumerate(wish.copied)]
     known = ((model.labels == wish.movement) & (model.focus == wish.focus)).any()
@@ -51,7 +64,7 @@ def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
 
 
 def doubts(reasons: Reasons) -> list[dict[str, Any]]:
-    """Return the demonstrations that the imitator is unsure about, each with a sentence."""
+    """Return the demonstrations that the model is unsure about, each with a sentence."""
     found: dict[int, list[str]] = {}
     for doubt in reasons.ambiguous:
         likely = [f"{object_name(i)} {p:.0%}" for i, p in zip(doubt.objects, doubt.probabilities, strict=True)]
@@ -68,29 +81,7 @@ def understood_text(movement: int, focus: int, confidence: float) -> str:
     return f"movement {movement} about the {object_name(focus)} object, {100 * confidence:.0f} %"
 
 
-def _order_text(model: ImitationModel) -> str:
-    order = model.word_order
-    return f"The {ordinal(order.focus)} sign names the object, the {ordinal(order.movement)} the movement."
-
-
-def _object_words(model: ImitationModel) -> list[dict[str, Any]]:
-    objects = model.demonstrations.objects.shape[1]
-    return [{"object": i, "strokes": _signs(model, model.word_order.focus, model.focus == i)} for i in range(objects)]
-
-
-def _movement_words(model: ImitationModel) -> list[dict[str, Any]]:
-    word = model.word_order.movement
-    return [
-        {
-            "movement": m,
-            "strokes": _signs(model, word, model.labels == m),
-            "drawings": [_rounded(resample_path(path, _DRAWING_POINTS)) for path in found.paths[-_MOST_EXAMPLES:]],
-        }
-        for m, found in enumerate(model.movements)
-    ]
-
-
-def _signs(model: ImitationModel, word: int, which: NDArray[np.bool_]) -> list[Any]:
+def _signs_json(model: ImitationModel, word: int, which: NDArray[np.bool_]) -> list[Any]:
     """Return how the latest of some demonstrations made their sign at a place of the utterance."""
     numbers = np.flatnonzero(which)[-_MOST_EXAMPLES:]
     return [sign_json(model.demonstrations[int(t)].signs[word]) for t in numbers]

@@ -1,4 +1,4 @@
-"""Built-in people who play the interactant or the demonstrator where nobody else does."""
+"""Built-in people of a session: synthetic interactant and demonstrator, the same for the same seed."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from signimit_envs.studio.store.events import Signs
 
 
 def draw_utterance(language: str, seed: int, request: Request, attempt: int) -> Signs:
-    """Let the session's built-in interactant ask for something; every attempt is another drawing."""
+    """Draw the signs of a request; every attempt is another drawing."""
     spoken, cast = LANGUAGES[language], _cast(language, seed)
     rng, deck = _generator(seed, 4, request, attempt), StrokeSampler(cast.signs)
     return tuple(deck.draw(label, rng)[0] for label in sign_labels(spoken, request))
@@ -29,7 +29,7 @@ def draw_utterance(language: str, seed: int, request: Request, attempt: int) -> 
 def draw_answer(
     language: str, seed: int, request: Request, attempt: int, scene: tuple[NDArray[np.float64], NDArray[np.float64]]
 ) -> Stroke:
-    """Let the session's built-in demonstrator answer a request in a scene of objects (O, 2) and a hand (2,), m."""
+    """Draw the movement of a request in a scene of objects (O, 2) and a hand (2,), m."""
     objects, hand = scene
     deck, rng = StrokeSampler(_cast(language, seed).movements), _generator(seed, 5, request, attempt)
     loops = compose_loops(LANGUAGES[language], deck, request.movement, rng)
@@ -52,7 +52,7 @@ def templates(language: str, seed: int) -> tuple[tuple[NDArray[np.float64], ...]
 
 @functools.lru_cache(maxsize=8)
 def _cast(language: str, seed: int) -> Cast:
-    """Meet the people of a session: always the same for the same seed."""
+    """Choose the people of a session."""
     return cast_people(LANGUAGES[language], np.random.default_rng([seed, 3]))
 
 

@@ -1,7 +1,7 @@
-"""Sessions as files of other kinds, and back.
+"""Export and import of demonstrations: demonstration sets, stroke libraries, InkML and CSV.
 
 A stroke file holds each demonstration as W signs, then the objects' places as a "stroke" with the label `PLACES`, then
-the hand's path. So whoever wants strokes has them under their labels, and nothing is lost.
+the hand's path. So the strokes are found under their labels, and nothing is lost.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ from signimit.teaching.languages import Language
 from signimit_envs.arm.scene import OBJECT_COUNTS
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page.prompts import sign_labels
-from signimit_envs.studio.store.events import Shown
+from signimit_envs.studio.store.events import DrawnDemonstration
 
 WORDS = 2
 PLACES = "objects"
 _COLUMNS = ("stroke", "label", "writer", "x", "y", "t")
-Demonstrations = Sequence[Shown]
+Demonstrations = Sequence[DrawnDemonstration]
 
 
-class Format(NamedTuple):
-    """A kind of file.
+class ExportFormat(NamedTuple):
+    """A file format of demonstrations.
 
     Attributes:
         media_type: What a browser is told.
@@ -48,7 +48,7 @@ class Format(NamedTuple):
 
     media_type: str
     write: Callable[[Demonstrations, Language | None, Path], None]
-    read: Callable[[Path], list[Shown]]
+    read: Callable[[Path], list[DrawnDemonstration]]
 
 
 def export_bytes(name: str, shown: Demonstrations, language: Language | None) -> bytes:
@@ -65,7 +65,7 @@ def export_bytes(name: str, shown: Demonstrations, language: Language | None) ->
         return path.read_bytes()
 
 
-def import_bytes(name: str, content: bytes) -> tuple[Shown, ...]:
+def import_bytes(name: str, content: bytes) -> tuple[DrawnDemonstration, ...]:
     """Return the demonstrations in the bytes of a file.
 
     Raises:
@@ -90,12 +90,15 @@ def to_library(shown: Demonstrations, language: Language | None) -> StrokeLibrar
     for one in shown:
         places = Stroke(one.objects, np.arange(len(one.objects), dtype=np.float64))
         strokes += [*one.signs, places, one.hand]
-        labels += _labels(one, language)
+        if language is None or one.prompt is None:
+            labels += [*(f"sign {word + 1}" for word in range(WORDS)), PLACES, "movement"]
+        else:
+            labels += [*sign_labels(language, one.prompt), PLACES, language.movements[one.prompt.movement]]
     writers = [one.by for one in shown for _ in range(WORDS + 2)]
     return StrokeLibrary(tuple(strokes), tuple(labels), tuple(writers), "signimit studio")
 
 
-def from_library(library: StrokeLibrary) -> list[Shown]:
+def from_library(library: StrokeLibrary) -> list[DrawnDemonstration]:
     """Take demonstrations out of a stroke library that `to_library` made.
 
     Raises:
@@ -109,24 +112,14 @@ def from_library(library: StrokeLibrary) -> list[Shown]:
     found = []
     for first in range(0, len(library), size):
         *signs, places, hand = library.strokes[first : first + size]
-        found.append(Shown(tuple(signs), places.points, hand, None, library.writers[first]))
+        found.append(DrawnDemonstration(tuple(signs), places.points, hand, None, library.writers[first]))
     return found
 
 
-def _labels(one: Shown, language: Language | None) -> list[str]:
-    if language is None or one.prompt is None:
-        return [*(f"sign {word + 1}" for word in range(WORDS)), PLACES, "movement"]
-    return [*sign_labels(language, one.prompt), PLACES, language.movements[one.prompt.movement]]
-
-
-def _write_set(shown: Demonstrations, language: Language | None, path: Path) -> None:
-    DemonstrationSet(one.demonstration for one in shown).save(path)
-
-
-def _read_set(path: Path) -> list[Shown]:
+def _read_set(path: Path) -> list[DrawnDemonstration]:
     """Read a set; signs have no times in it, and are taken to be sampled every 10 ms."""
     return [
-        Shown(
+        DrawnDemonstration(
             tuple(Stroke(sign, SAMPLE_TIME * np.arange(len(sign), dtype=np.float64)) for sign in one.signs),
             one.objects,
             Stroke(one.hand, one.times - one.times[0]),
@@ -151,7 +144,7 @@ def _write_csv(shown: Demonstrations, language: Language | None, path: Path) -> 
         file.write(text.getvalue().encode())
 
 
-def _read_csv(path: Path) -> list[Shown]:
+def _read_csv(path: Path) -> list[DrawnDemonstration]:
     try:
         rows = csv.reader(io.StringIO(path.read_bytes().decode("utf-8-sig")), strict=True)
         header = tuple(next(rows, ()))
@@ -207,20 +200,24 @@ def _check_sizes(shown: Demonstrations) -> None:
             raise InvalidInputError(where, f"objects and hand within {LIMITS.reach} m of the table's middle", "others")
 
 
-FORMATS: Mapping[str, Format] = MappingProxyType(
+FORMATS: Mapping[str, ExportFormat] = MappingProxyType(
     {
-        "demonstrations.npz": Format("application/octet-stream", _write_set, _read_set),
-        "strokes.npz": Format(
+        "demonstrations.npz": ExportFormat(
+            "application/octet-stream",
+            lambda shown, language, path: DemonstrationSet(one.demonstration for one in shown).save(path),
+            _read_set,
+        ),
+        "strokes.npz": ExportFormat(
             "application/octet-stream",
             lambda shown, language, path: to_library(shown, language).save(path),
             lambda path: from_library(StrokeLibrary.load(path)),
         ),
-        "strokes.inkml": Format(
+        "strokes.inkml": ExportFormat(
             "application/inkml+xml",
             lambda shown, language, path: write_inkml(path, to_library(shown, language)),
             lambda path: from_library(read_inkml(path)),
         ),
-        "strokes.csv": Format("text/csv", _write_csv, _read_csv),
+        "strokes.csv": ExportFormat("text/csv", _write_csv, _read_csv),
     }
 )
-"""What a session can be exported to and imported from, by the name of the file."""
+"""Formats of export and import, by the name of the file."""

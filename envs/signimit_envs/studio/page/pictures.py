@@ -1,10 +1,10 @@
-"""What the studio has to show of a session: the paper's figures, its similarities, and films."""
+"""Figures 4 to 7 of the paper, similarity matrices and films of a session."""
 
 from __future__ import annotations
 
 import io
 import tempfile
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from signimit.exceptions import InvalidInputError
 from signimit.learning import ImitationModel
 from signimit.similarity import maximum_similarities, policy_distances, policy_similarities
-from signimit_envs.sessions.session import Answer
+from signimit_envs.sessions.session import Answer as Reproduction
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page.belief import understood_text
-from signimit_envs.studio.store.events import Shown
-from signimit_envs.studio.store.history import Given
+from signimit_envs.studio.store.events import DrawnDemonstration
+from signimit_envs.studio.store.history import Answer
 from signimit_envs.video.films import film_shots
 from signimit_envs.video.mp4 import write_video
 from signimit_envs.video.storyboard import FRAME_RATE, Shot, show_answer, show_exchange
@@ -29,11 +29,34 @@ if TYPE_CHECKING:
 
 FIGURES = range(4, 8)
 DOTS_PER_INCH = 110
+_KEPT_FIGURES = 24  # of a fifth of a megabyte each
 FILM_SECONDS = 20.0  # of an answer; drawing takes about as long as watching
 Track = Sequence[dict[str, Any]]
 
 
-def draw_figure(number: int, suffix: str, model: ImitationModel, answers: Sequence[tuple[Given, Track]]) -> bytes:
+class FigureCache:
+    """The bytes of the latest figures by what they show; for any thread, as each access is one operation."""
+
+    def __init__(self, most: int = _KEPT_FIGURES) -> None:
+        """Start empty; of more than ``most`` figures the oldest ones go."""
+        self._most = most
+        self._figures: dict[Hashable, bytes] = {}
+
+    def find(self, key: Hashable) -> bytes | None:
+        """Return a figure, if it is kept."""
+        return self._figures.get(key)
+
+    def find_or_draw(self, key: Hashable, draw: Callable[[], bytes]) -> bytes:
+        """Return a figure; draw and keep it if it is not kept. For one thread at a time."""
+        found = self.find(key)
+        if found is None:
+            found = self._figures[key] = draw()
+            for oldest in list(self._figures)[: -self._most]:
+                del self._figures[oldest]
+        return found
+
+
+def draw_figure(number: int, suffix: str, model: ImitationModel, answers: Sequence[tuple[Answer, Track]]) -> bytes:
     """Draw one of the paper's figures 4 to 7.
 
     Args:
@@ -89,7 +112,7 @@ def similarities_json(model: ImitationModel) -> dict[str, Any]:
     }
 
 
-def film_demonstration(shown: Shown, number: int) -> bytes:
+def film_demonstration(shown: DrawnDemonstration, number: int) -> bytes:
     """Film a demonstration, as the bytes of an mp4 file.
 
     Raises:
@@ -98,7 +121,7 @@ def film_demonstration(shown: Shown, number: int) -> bytes:
     return _film(show_exchange(shown.demonstration, f"Demonstration {number}"), len(shown.objects))
 
 
-def film_answer(given: Given, track: Track) -> bytes:
+def film_answer(answer: Answer, track: Track) -> bytes:
     """Film the first seconds of an answer, objects that are dragged included, as the bytes of an mp4 file.
 
     Raises:
@@ -106,10 +129,10 @@ def film_answer(given: Given, track: Track) -> bytes:
         RenderingError: If there is no OpenGL.
     """
     path, joints, objects = (_whole(track, name) for name in ("path", "joints", "objects"))
-    asked, end = given.asked, round(FILM_SECONDS * track[0]["rate"])
-    answer = Answer(asked.movement, asked.focus, asked.confidence, path[:end], joints[:end])
+    asked, end = answer.asked, round(FILM_SECONDS * track[0]["rate"])
+    reproduction = Reproduction(asked.movement, asked.focus, asked.confidence, path[:end], joints[:end])
     captions = "Signs for the robot", f"The robot: {understood_text(asked.movement, asked.focus, asked.confidence)}"
-    shots = show_answer([sign.points for sign in asked.signs], objects[0], answer, captions)
+    shots = show_answer([sign.points for sign in asked.signs], objects[0], reproduction, captions)
     moved = (replace(shot, objects=objects[max(0, len(shot.trail) - 1)]) for shot in shots)
     return _film(moved, objects.shape[1])
 
@@ -127,18 +150,18 @@ def _distances(model: ImitationModel) -> NDArray[np.float64]:
     return policy_distances(model.demonstrations.paths, model.demonstrations.objects)
 
 
-def _draw_answers(model: ImitationModel, answers: Sequence[tuple[Given, Track]]) -> Figure:
+def _draw_answers(model: ImitationModel, answers: Sequence[tuple[Answer, Track]]) -> Figure:
     from signimit.plots import paper as figures
 
     paths: dict[tuple[int, int], list[NDArray[np.float64]]] = {}
     obeyed: dict[tuple[int, int], list[bool | None]] = {}
-    for given, track in answers:
+    for answer, track in answers:
         if not track:
             continue
-        key = given.asked.movement, given.asked.focus
-        about = _whole(track, "path") - _whole(track, "objects")[:, given.asked.focus]
+        key = answer.asked.movement, answer.asked.focus
+        about = _whole(track, "path") - _whole(track, "objects")[:, answer.asked.focus]
         paths.setdefault(key, []).append(about)
-        obeyed.setdefault(key, []).append(given.good)
+        obeyed.setdefault(key, []).append(answer.good)
     if not paths:
         raise InvalidInputError("figure 7", "at least one answer of the arm", "none")
     names = [f"movement {m}" for m in range(1 + max(movement for movement, _ in paths))]

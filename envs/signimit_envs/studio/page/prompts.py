@@ -1,4 +1,4 @@
-"""What a person is asked to demonstrate next, in words and pictures."""
+"""Prompts: languages of the studio, the request to demonstrate next, and its sentence."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ LANGUAGES: Mapping[str, Language] = MappingProxyType(
 )
 
 
-class Next(NamedTuple):
-    """What should come next.
+class NextRequest(NamedTuple):
+    """The request to demonstrate next.
 
     Attributes:
         request: What the interactant is to ask for.
@@ -52,7 +52,7 @@ def get_language(name: str) -> Language | None:
     return LANGUAGES[name]
 
 
-def next_request(language: Language, seed: int, prompts: Sequence[Request | None]) -> Next:
+def next_request(language: Language, seed: int, prompts: Sequence[Request | None]) -> NextRequest:
     """Return the first request that still waits; when none does they come round again.
 
     Args:
@@ -60,14 +60,15 @@ def next_request(language: Language, seed: int, prompts: Sequence[Request | None
         seed: The session's; decides the order.
         prompts: What was demonstrated already.
     """
-    order = _order(language, seed)
+    rng = np.random.default_rng([seed, 2])
+    order = [language.seen[i] for _ in range(language.repetitions) for i in rng.permutation(len(language.seen))]
     done, waiting = Counter(prompts), []
     for request in order:
         if done[request] > 0:
             done[request] -= 1
         else:
             waiting.append(request)
-    return Next(waiting[0], len(waiting)) if waiting else Next(order[len(prompts) % len(order)], 0)
+    return NextRequest(waiting[0], len(waiting)) if waiting else NextRequest(order[len(prompts) % len(order)], 0)
 
 
 def sign_labels(language: Language, request: Request) -> tuple[str, str]:
@@ -81,9 +82,3 @@ def prompt_text(language: Language, request: Request) -> str:
     first, second = sign_labels(language, request)
     movement = language.movements[request.movement]
     return f"Sign {first}, then {second}. Then draw a {movement} about the {object_name(request.focus)} object."
-
-
-def _order(language: Language, seed: int) -> list[Request]:
-    """Shuffle the requests that are to be demonstrated, round by round."""
-    rng = np.random.default_rng([seed, 2])
-    return [language.seen[i] for _ in range(language.repetitions) for i in rng.permutation(len(language.seen))]

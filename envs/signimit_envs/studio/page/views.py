@@ -1,4 +1,4 @@
-"""A session as the page sees it."""
+"""JSON of a session for the page: demonstrations, answers, draft, prompt and belief."""
 
 from __future__ import annotations
 
@@ -9,18 +9,23 @@ import numpy as np
 from signimit.explanation import object_name
 from signimit.teaching.languages import Language, Request
 from signimit_envs.studio.arm.live_state import LiveState
+from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.page.belief import sign_json, understood_text
 from signimit_envs.studio.page.built_in_people import examples
 from signimit_envs.studio.page.prompts import get_language, next_request, prompt_text, sign_labels
-from signimit_envs.studio.store.events import Shown, stroke_to_json
-from signimit_envs.studio.store.history import Draft, Given
-from signimit_envs.studio.store.open_session import OpenSession
+from signimit_envs.studio.store.events import DrawnDemonstration, stroke_to_json
+from signimit_envs.studio.store.history import Answer
 
 
 def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
     """Return all of a session but the strokes of its demonstrations and answers."""
-    history, understood = session.history, session.understood
+    history, learned = session.history, session.learned
     created, language = history.created, get_language(history.created.language)
+    drawn = {place: [stroke_to_json(stroke) for stroke in strokes] for place, strokes in history.draft.drawn.items()}
+    prompt, left = None, 0
+    if language is not None:
+        request, left = next_request(language, created.seed, [shown.prompt for shown in history.shown])
+        prompt = prompt_json(session, request)
     return {
         "id": session.name,
         "title": history.title,
@@ -30,36 +35,37 @@ def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
         "language": None if language is None else _language_json(created.language, language),
         "objects": created.objects,
         "demonstrations": [_listed_json(session, number, shown) for number, shown in enumerate(history.shown)],
-        "answers": [answer_json(session, number, given, state) for number, given in enumerate(history.answers)],
-        "draft": _draft_json(history.draft),
+        "answers": [answer_json(session, number, answer, state) for number, answer in enumerate(history.answers)],
+        "draft": {"number": history.draft.number, "drawn": drawn},
         "can_undo": bool(history.past),
         "can_redo": bool(history.future),
         "next": {
-            "scene": {"objects": understood.objects.tolist(), "hand": understood.hand.tolist()},
-            **_next_json(session, language),
+            "scene": {"objects": learned.objects.tolist(), "hand": learned.hand.tolist()},
+            "prompt": prompt,
+            "left": left,
         },
-        "belief": understood.belief,
+        "belief": learned.belief,
     }
 
 
-def answer_json(session: OpenSession, number: int, given: Given, state: LiveState) -> dict[str, Any]:
-    """Return what the arm was asked and understood."""
-    asked, errand = given.asked, state.errand
+def answer_json(session: OpenSession, number: int, answer: Answer, state: LiveState) -> dict[str, Any]:
+    """Return what the arm was asked, and how it was understood."""
+    asked, task = answer.asked, state.task
     return {
         "number": number,
         "movement": asked.movement,
         "focus": asked.focus,
         "confidence": round(asked.confidence, 4),
         "text": understood_text(asked.movement, asked.focus, asked.confidence),
-        "verdict": given.good,
+        "verdict": answer.good,
         "request": _request_json(asked.request),
-        "running": errand is not None and (errand.session, errand.answer) == (session.name, number),
+        "running": task is not None and (task.session, task.answer) == (session.name, number),
     }
 
 
 def demonstration_json(session: OpenSession, number: int) -> dict[str, Any]:
     """Return a demonstration, strokes and all, for replay."""
-    shown = session.history.shown[number]
+    shown = session.demonstration(number)
     return {
         **_listed_json(session, number, shown),
         "signs": [stroke_to_json(sign) for sign in shown.signs],
@@ -85,22 +91,9 @@ def prompt_json(session: OpenSession, request: Request) -> dict[str, Any]:
     }
 
 
-def _draft_json(draft: Draft) -> dict[str, Any]:
-    drawn = {place: [stroke_to_json(stroke) for stroke in strokes] for place, strokes in draft.drawn.items()}
-    return {"number": draft.number, "drawn": drawn}
-
-
-def _next_json(session: OpenSession, language: Language | None) -> dict[str, Any]:
-    if language is None:
-        return {"prompt": None, "left": 0}
-    prompts = [shown.prompt for shown in session.history.shown]
-    request, left = next_request(language, session.created.seed, prompts)
-    return {"prompt": prompt_json(session, request), "left": left}
-
-
-def _listed_json(session: OpenSession, number: int, shown: Shown) -> dict[str, Any]:
-    model = session.understood.model
-    belief = session.understood.belief or {}
+def _listed_json(session: OpenSession, number: int, shown: DrawnDemonstration) -> dict[str, Any]:
+    model = session.learned.model
+    belief = session.learned.belief or {}
     doubtful = {doubt["number"] for doubt in belief.get("doubtful", ())}
     return {
         "number": number,

@@ -1,1 +1,1 @@
-"""A part of the studio."""
+"""Sessions of the studio as events in journals on the disk."""

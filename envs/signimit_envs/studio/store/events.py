@@ -1,6 +1,7 @@
-"""What can happen in a session, as immutable values and as JSON.
+"""Events of a session: immutable values, and their JSON in the journal.
 
-A session is nothing but the list of its events: whoever has the list has the session.
+A session is the list of its events. The JSON has the class's name in lower case and the field names, so neither may
+change: journals of every version are read for ever.
 """
 
 from __future__ import annotations
@@ -26,8 +27,8 @@ PLACES = ("sign 1", "sign 2", "hand", QUESTION)  # where a stroke of a draft can
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
-    """A demonstration as it was drawn.
+class DrawnDemonstration:
+    """A demonstration with the strokes that it was drawn with.
 
     Attributes:
         signs: The utterance, any unit, y up.
@@ -53,7 +54,7 @@ class Shown:
 
     @property
     def demonstration(self) -> Demonstration:
-        """What the imitator may see of it."""
+        """What the learner sees of it."""
         return Demonstration(tuple(s.points for s in self.signs), self.objects, self.hand.points, self.hand.times)
 
 
@@ -92,7 +93,7 @@ class Created:
 class Demonstrated:
     """Demonstrations were added at the end."""
 
-    shown: tuple[Shown, ...]
+    shown: tuple[DrawnDemonstration, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +101,7 @@ class Redrawn:
     """A demonstration took the place of an earlier one."""
 
     number: int
-    shown: Shown
+    shown: DrawnDemonstration
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,7 +113,7 @@ class Deleted:
 
 @dataclass(frozen=True, eq=False)
 class Drafted:
-    """Somebody drew a part of what is not sent yet, or cleared it.
+    """A part of a demonstration or question that is not sent yet was drawn or cleared.
 
     Attributes:
         number: Of the demonstration that is drawn again; none for a new one.
@@ -146,9 +147,9 @@ class Asked:
 
     Attributes:
         signs: The utterance.
-        movement: Number of the movement understood, in the imitator's numbering of that moment.
+        movement: Number of the movement understood, in the model's numbering of that moment.
         focus: Number of the object understood.
-        confidence: Probability that both are right, in the imitator's eyes.
+        confidence: Probability that both are right, by the model.
         request: What a built-in interactant meant; unknown of a person.
     """
 
@@ -176,7 +177,7 @@ _KINDS: Mapping[str, type[Event]] = {
 
 def event_to_json(event: Event) -> dict[str, Any]:
     """Return an event as JSON can say it, exactly."""
-    values = {field.name: _plain(getattr(event, field.name)) for field in dataclasses.fields(event)}
+    values = {field.name: _value_to_json(getattr(event, field.name)) for field in dataclasses.fields(event)}
     return {"event": type(event).__name__.lower(), **values}
 
 
@@ -189,7 +190,7 @@ def event_from_json(value: Mapping[str, Any]) -> Event:
     try:
         kind = _KINDS[value["event"]]
         fields = {field.name: value[field.name] for field in dataclasses.fields(kind)}
-        return kind(**{name: _restored(name, given) for name, given in fields.items()})
+        return kind(**{name: _field_from_json(name, given) for name, given in fields.items()})
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         if isinstance(error, InvalidInputError):
             raise
@@ -201,45 +202,55 @@ def stroke_to_json(stroke: Stroke) -> dict[str, Any]:
     return {"points": stroke.points.tolist(), "times": stroke.times.tolist()}
 
 
-def _plain(value: Any) -> Any:
+def _value_to_json(value: Any) -> Any:
     if isinstance(value, Stroke):
         return stroke_to_json(value)
-    if isinstance(value, Shown):
-        return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
+    if isinstance(value, DrawnDemonstration):
+        return {field.name: _value_to_json(getattr(value, field.name)) for field in dataclasses.fields(value)}
     if isinstance(value, Mapping):
-        return {name: _plain(item) for name, item in value.items()}
+        return {name: _value_to_json(item) for name, item in value.items()}
     if isinstance(value, np.ndarray):
         return value.tolist()
     if isinstance(value, Request):
         return list(value)
-    return [_plain(item) for item in value] if isinstance(value, tuple) else value
+    return [_value_to_json(item) for item in value] if isinstance(value, tuple) else value
 
 
-def _restored(name: str, value: Any) -> Any:
+def _field_from_json(name: str, value: Any) -> Any:
     """Turn the JSON of a field back into what it was."""
     if name == "shown":
-        return _shown(value) if isinstance(value, Mapping) else tuple(_shown(item) for item in value)
+        return (
+            _demonstration_from_json(value)
+            if isinstance(value, Mapping)
+            else tuple(_demonstration_from_json(item) for item in value)
+        )
     if name == "signs":
-        return _strokes(value)
+        return _strokes_from_json(value)
     if name == "drawn":
-        return {place: _strokes(strokes) for place, strokes in value.items()}
+        return {place: _strokes_from_json(strokes) for place, strokes in value.items()}
     if name == "request":
-        return _request(value)
+        return _request_from_json(value)
     return value
 
 
-def _shown(value: Mapping[str, Any]) -> Shown:
+def _demonstration_from_json(value: Mapping[str, Any]) -> DrawnDemonstration:
     objects = np.asarray(value["objects"])
-    return Shown(_strokes(value["signs"]), objects, _stroke(value["hand"]), _request(value["prompt"]), str(value["by"]))
+    return DrawnDemonstration(
+        _strokes_from_json(value["signs"]),
+        objects,
+        _stroke_from_json(value["hand"]),
+        _request_from_json(value["prompt"]),
+        str(value["by"]),
+    )
 
 
-def _stroke(value: Mapping[str, Any]) -> Stroke:
+def _stroke_from_json(value: Mapping[str, Any]) -> Stroke:
     return Stroke(np.asarray(value["points"]), np.asarray(value["times"]))
 
 
-def _strokes(values: Sequence[Mapping[str, Any]]) -> Signs:
-    return tuple(_stroke(value) for value in values)
+def _strokes_from_json(values: Sequence[Mapping[str, Any]]) -> Signs:
+    return tuple(_stroke_from_json(value) for value in values)
 
 
-def _request(value: Sequence[int] | None) -> Request | None:
+def _request_from_json(value: Sequence[int] | None) -> Request | None:
     return None if value is None else Request(int(value[0]), int(value[1]))

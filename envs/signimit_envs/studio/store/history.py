@@ -1,4 +1,4 @@
-"""What a session is after its events: a pure fold, with undo and redo."""
+"""State of a session: a pure fold over its events, with undo and redo."""
 
 from __future__ import annotations
 
@@ -15,22 +15,27 @@ from signimit_envs.studio.store.events import (
     Deleted,
     Demonstrated,
     Drafted,
+    DrawnDemonstration,
     Event,
     Judged,
     Redone,
     Redrawn,
-    Shown,
     Signs,
     Titled,
     Undone,
 )
 
-Demonstrations = tuple[Shown, ...]
+Demonstrations = tuple[DrawnDemonstration, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Given:
-    """An answer, and what people thought of it."""
+class Answer:
+    """An answer of the arm and the verdict on it.
+
+    Attributes:
+        asked: What was asked, and how it was understood.
+        good: Whether a person judged it right; none without a verdict.
+    """
 
     asked: Asked
     good: bool | None = None
@@ -38,11 +43,11 @@ class Given:
 
 @dataclass(frozen=True, eq=False)
 class Draft:
-    """What is drawn and not sent yet.
+    """A demonstration that is half drawn, and the first sign of a question.
 
     Attributes:
         number: Of the demonstration that is drawn again; none for a new one.
-        drawn: Strokes at each place where somebody drew or cleared something.
+        drawn: Strokes at each place where something was drawn or cleared.
     """
 
     number: int | None = None
@@ -72,7 +77,7 @@ class History:
     created: Created
     title: str
     shown: Demonstrations = ()
-    answers: tuple[Given, ...] = ()
+    answers: tuple[Answer, ...] = ()
     draft: Draft = field(default_factory=Draft)
     revision: int = 0
     events: int = 1
@@ -80,8 +85,8 @@ class History:
     future: tuple[Demonstrations, ...] = ()
 
 
-def retell(events: Iterable[Event]) -> History:
-    """Return the session that a list of events makes.
+def replay_events(events: Iterable[Event]) -> History:
+    """Fold the events of a session into its state.
 
     Raises:
         InvalidInputError: If the first does not create it, or one of them cannot have happened.
@@ -90,44 +95,74 @@ def retell(events: Iterable[Event]) -> History:
     first = next(remaining, None)
     if not isinstance(first, Created):
         raise InvalidInputError("session", "a beginning", type(first).__name__)
-    return functools.reduce(after, remaining, History(first, first.title))
+    return functools.reduce(apply_event, remaining, History(first, first.title))
 
 
-def after(history: History, event: Event) -> History:
-    """Return the session after one more event.
+def apply_event(history: History, event: Event) -> History:
+    """Return the state of a session after one more event.
 
     Raises:
         InvalidInputError: If that cannot happen now.
     """
-    following = replace(_after(history, event), events=history.events + 1)
+    following = replace(_apply(history, event), events=history.events + 1)
     if following.shown is history.shown:
         return following
     return replace(following, draft=history.draft.question_only())
 
 
-def _after(history: History, event: Event) -> History:
+def _apply(history: History, event: Event) -> History:
+    """Apply an event to everything but the number of events and the draft that an edit ends."""
+    draft, revision = history.draft, history.revision + 1
     match event:
-        case Asked():
-            drawn = {place: strokes for place, strokes in history.draft.drawn.items() if place != QUESTION}
-            draft = replace(history.draft, drawn=drawn)
-            return replace(history, answers=(*history.answers, Given(event)), draft=draft)
+        case Created():
+            raise InvalidInputError("session", "one beginning", "another")
+        case Demonstrated() | Redrawn() | Deleted():
+            past = (*history.past, history.shown)
+            return replace(history, shown=_edited(history, event), past=past, future=(), revision=revision)
+        case Undone():
+            if not history.past:
+                raise InvalidInputError("undo", "something to take back", "nothing")
+            past, shown, future = history.past[:-1], history.past[-1], (*history.future, history.shown)
+            return replace(history, shown=shown, past=past, future=future, revision=revision)
+        case Redone():
+            if not history.future:
+                raise InvalidInputError("redo", "something that was undone", "nothing")
+            past, shown, future = (*history.past, history.shown), history.future[-1], history.future[:-1]
+            return replace(history, shown=shown, past=past, future=future, revision=revision)
+        case Titled(title):
+            return replace(history, title=title, revision=revision)
         case Drafted():
             return replace(history, draft=_drafted(history, event))
+        case Asked():
+            drawn = {place: strokes for place, strokes in draft.drawn.items() if place != QUESTION}
+            return replace(history, answers=(*history.answers, Answer(event)), draft=replace(draft, drawn=drawn))
         case Judged(number, good):
             _check_number(number, len(history.answers), "answer")
             answers = list(history.answers)
             answers[number] = replace(answers[number], good=good)
             return replace(history, answers=tuple(answers))
-        case Titled(title):
-            return replace(history, title=title, revision=history.revision + 1)
-        case Undone():
-            return _undone(history)
-        case Redone():
-            return _redone(history)
-        case Created():
-            raise InvalidInputError("session", "one beginning", "another")
-        case _:
-            return _edited(history, event)
+
+
+def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> Demonstrations:
+    """Return the demonstrations after an edit.
+
+    Raises:
+        InvalidInputError: If there is no such demonstration, or one does not fit the others.
+    """
+    shown = history.shown
+    if isinstance(event, Demonstrated):
+        edited = (*shown, *event.shown)
+    else:
+        _check_number(event.number, len(shown), "demonstration")
+        instead = (event.shown,) if isinstance(event, Redrawn) else ()
+        edited = (*shown[: event.number], *instead, *shown[event.number + 1 :])
+    words, objects = len(edited[0].signs) if edited else 0, history.created.objects
+    for number, one in enumerate(edited):
+        if len(one.signs) != words:
+            raise InvalidInputError(f"demonstration {number}: signs", f"{words}", f"{len(one.signs)}")
+        if len(one.objects) != objects:
+            raise InvalidInputError(f"demonstration {number}: objects", f"{objects}", f"{len(one.objects)}")
+    return edited
 
 
 def _drafted(history: History, event: Drafted) -> Draft:
@@ -140,51 +175,6 @@ def _drafted(history: History, event: Drafted) -> Draft:
     return Draft(event.number, {**draft.drawn, **event.drawn})
 
 
-def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> History:
-    shown = history.shown
-    if isinstance(event, Demonstrated):
-        edited = (*shown, *event.shown)
-    else:
-        _check_number(event.number, len(shown), "demonstration")
-        instead = (event.shown,) if isinstance(event, Redrawn) else ()
-        edited = (*shown[: event.number], *instead, *shown[event.number + 1 :])
-    _check_alike(edited, history.created.objects)
-    past = (*history.past, shown)
-    return replace(history, shown=edited, past=past, future=(), revision=history.revision + 1)
-
-
-def _undone(history: History) -> History:
-    if not history.past:
-        raise InvalidInputError("undo", "something to take back", "nothing")
-    return replace(
-        history,
-        shown=history.past[-1],
-        past=history.past[:-1],
-        future=(*history.future, history.shown),
-        revision=history.revision + 1,
-    )
-
-
-def _redone(history: History) -> History:
-    if not history.future:
-        raise InvalidInputError("redo", "something that was undone", "nothing")
-    return replace(
-        history,
-        shown=history.future[-1],
-        past=(*history.past, history.shown),
-        future=history.future[:-1],
-        revision=history.revision + 1,
-    )
-
-
 def _check_number(number: int, count: int, what: str) -> None:
     if number not in range(count):
         raise InvalidInputError(what, f"a number below {count}", f"{number!r:.40}")
-
-
-def _check_alike(shown: Demonstrations, objects: int) -> None:
-    for number, one in enumerate(shown):
-        if len(one.signs) != len(shown[0].signs):
-            raise InvalidInputError(f"demonstration {number}: signs", f"{len(shown[0].signs)}", f"{len(one.signs)}")
-        if len(one.objects) != objects:
-            raise InvalidInputError(f"demonstration {number}: objects", f"{objects}", f"{len(one.objects)}")

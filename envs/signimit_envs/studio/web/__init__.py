@@ -1,1 +1,1 @@
-"""A part of the studio."""
+"""The web server of the studio: application, guard, messages and routes."""

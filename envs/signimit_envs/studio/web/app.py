@@ -1,4 +1,4 @@
-"""The web application: the page's files, the routes, and one sentence for whatever goes wrong."""
+"""The web application: the page's files, the routes, and a code and a sentence for each kind of error."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ except ImportError:
     raise MissingDependencyError("fastapi", "studio", "The studio") from None
 
 from signimit_envs.arm.scene import OBJECT_NAMES, TABLE, WORKSPACE
-from signimit_envs.studio.arm.camera import object_colours, picture_mapping
+from signimit_envs.studio.arm.camera import OPENGL_PATIENCE, object_colours, picture_mapping
 from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.open_session import NotFoundError, StaleRevisionError
 from signimit_envs.studio.page.exports import FORMATS
 from signimit_envs.studio.page.prompts import FREE, LANGUAGES
-from signimit_envs.studio.store.open_session import StaleRevisionError
-from signimit_envs.studio.studio import BusyError, NotHereError, Studio
-from signimit_envs.studio.web.messages import complaint
+from signimit_envs.studio.studio import BusyError, Studio
+from signimit_envs.studio.web.messages import describe_errors
 from signimit_envs.studio.web.routes import ask as ask_routes
 from signimit_envs.studio.web.routes import keep as keep_routes
 from signimit_envs.studio.web.routes import look as look_routes
@@ -47,22 +47,27 @@ MEDIA_TYPES = {
     ".webmanifest": "application/manifest+json",
 }
 Play = Callable[[Studio], Coroutine[Any, Any, None]]
-_PATIENCE = 60.0  # s, for OpenGL to be found
 _log = logging.getLogger(__name__)
 
 
 def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
-    """Make the application, without a guard; it starts the studio and closes it.
+    """Make the application, without the guard; it starts the studio and closes it.
 
     Args:
         studio: What it serves.
         play: Plays on the page by itself, once the studio is open; nothing if left out.
     """
 
+    async def run_play(play: Play) -> None:
+        try:
+            await play(studio)
+        except (SignimitError, OSError):  # the session that plays was changed or removed
+            _log.exception("the session that plays itself ended")
+
     @asynccontextmanager
-    async def living(app: FastAPI) -> AsyncIterator[None]:
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         studio.start()
-        playing = None if play is None else asyncio.create_task(_played(play, studio))
+        playing = None if play is None else asyncio.create_task(run_play(play))
         try:
             yield
         finally:
@@ -77,7 +82,7 @@ def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
         version=__version__,
         docs_url=None,  # its page would fetch a script from elsewhere
         redoc_url=None,
-        lifespan=living,
+        lifespan=lifespan,
         exception_handlers=_HANDLERS,
     )
     app.state.studio = studio
@@ -86,7 +91,7 @@ def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
 
     @app.get("/api/studio", tags=["studio"])
     async def about() -> dict[str, Any]:
-        why_not = await asyncio.to_thread(studio.camera.why_blind, _PATIENCE)
+        why_not = await asyncio.to_thread(studio.camera.unavailable_reason, OPENGL_PATIENCE)
         return {**_facts(), "can_draw": not why_not, "why_not": why_not, "demo": studio.demo}
 
     @app.get("/api/health", tags=["studio"])
@@ -97,13 +102,6 @@ def create_app(studio: Studio, play: Play | None = None) -> FastAPI:
 
     _serve_page(app)
     return app
-
-
-async def _played(play: Play, studio: Studio) -> None:
-    try:
-        await play(studio)
-    except (SignimitError, OSError):  # somebody changed or removed the session that plays
-        _log.exception("the session that plays itself ended")
 
 
 @functools.cache
@@ -135,53 +133,53 @@ def _serve_page(app: FastAPI) -> None:
     async def page_file(name: str) -> Response:
         media_type = types.get(name)
         if media_type is None:
-            raise NotHereError("There is no such page.")
+            raise NotFoundError("There is no such page.")
         return Response(files[name].read_bytes(), media_type=media_type)
 
 
-def _refused(status: int, sentence: str, **more: Any) -> JSONResponse:
+def _error_response(status: int, sentence: str, **more: Any) -> JSONResponse:
     _log.warning("refused with %d: %s", status, sentence)
     return JSONResponse({"error": sentence, **more}, status)
 
 
-async def _said(request: Request, error: Exception) -> Response:
-    """Answer an error of ours: its kind decides the code, and it is a sentence already."""
+async def _handle_known_error(request: Request, error: Exception) -> Response:
+    """Answer with the code of the error's kind; its text is a sentence already."""
     codes = (status for kind, status in _CODES.items() if isinstance(error, kind))
     more = {"revision": error.latest} if isinstance(error, StaleRevisionError) else {}
-    return _refused(next(codes), str(error), **more)
+    return _error_response(next(codes), str(error), **more)
 
 
-async def _unwritten(request: Request, error: Exception) -> Response:
+async def _handle_os_error(request: Request, error: Exception) -> Response:
     reason = getattr(error, "strerror", None) or "the disk failed"
-    return _refused(507, f"The studio could not keep this: {reason}.")
+    return _error_response(507, f"The studio could not keep this: {reason}.")
 
 
-async def _failed(request: Request, error: Exception) -> Response:
-    return _refused(500, "The studio failed; its log says how.")
+async def _handle_unexpected_error(request: Request, error: Exception) -> Response:
+    return _error_response(500, "The studio failed; its log says how.")
 
 
-async def _unrouted(request: Request, error: Exception) -> Response:
+async def _handle_http_error(request: Request, error: Exception) -> Response:
     status, detail = getattr(error, "status_code", 500), getattr(error, "detail", "It failed")
-    return _refused(status, f"{detail}.")
+    return _error_response(status, f"{detail}.")
 
 
-async def _malformed(request: Request, error: Exception) -> Response:
+async def _handle_validation_error(request: Request, error: Exception) -> Response:
     errors = error.errors() if isinstance(error, RequestValidationError) else ()
     status = 400 if any(one["type"] == "json_invalid" for one in errors) else 422
-    return _refused(status, complaint(errors))
+    return _error_response(status, describe_errors(errors))
 
 
 _CODES: dict[type[Exception], int] = {  # of an error's kinds the first counts
     StaleRevisionError: 409,
     RenderingError: 503,
-    NotHereError: 404,
+    NotFoundError: 404,
     BusyError: 429,
     SignimitError: 422,
 }
 _HANDLERS: dict[int | type[Exception], Callable[[Request, Any], Coroutine[Any, Any, Response]]] = {
-    **dict.fromkeys(_CODES, _said),
-    OSError: _unwritten,
-    HTTPException: _unrouted,
-    RequestValidationError: _malformed,
-    Exception: _failed,
+    **dict.fromkeys(_CODES, _handle_known_error),
+    OSError: _handle_os_error,
+    HTTPException: _handle_http_error,
+    RequestValidationError: _handle_validation_error,
+    Exception: _handle_unexpected_error,
 }

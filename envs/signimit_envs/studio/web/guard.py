@@ -1,4 +1,4 @@
-"""The door: who may come in, how often, and with how much."""
+"""ASGI middleware: token, Host and Origin checks, rate and size limits."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _log = logging.getLogger(__name__)
 
 
 class Bucket:
-    """Lets so many things a second pass, and so many at once."""
+    """Token bucket: lets so many things a second pass, and so many at once."""
 
     def __init__(self, rate: float, burst: float) -> None:
         """Start full."""
@@ -43,7 +43,7 @@ class Bucket:
         self._left, self._at = burst, time.monotonic()
 
     def take(self) -> bool:
-        """Tell whether one more may pass."""
+        """Take a token; tell whether there was one."""
         now = time.monotonic()
         self._left = min(self._burst, self._left + self._rate * (now - self._at))
         self._at = now
@@ -54,14 +54,14 @@ class Bucket:
 
 
 class Guard:
-    """Wraps an ASGI application; what it lets in lies under ``/TOKEN/``.
+    """ASGI middleware about an application, which is reached under ``/TOKEN/``.
 
     A page elsewhere can make a browser send requests here, and by DNS rebinding even read the answers. So the Host
     must be one of ours, the Origin, where there is one, must be that Host, and the token must be in the path.
     """
 
     def __init__(self, app: App, token: str, hosts: frozenset[str], any_address: bool = False) -> None:
-        """Remember who may come in.
+        """Remember which requests are let in.
 
         Args:
             app: What is guarded.
@@ -73,7 +73,7 @@ class Guard:
         self._bucket = Bucket(LIMITS.requests, LIMITS.burst)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Let a request in, or answer it at the door."""
+        """Hand a request on to the application, or refuse it."""
         if scope["type"] == "lifespan":
             await self._app(scope, receive, send)
             return
@@ -88,7 +88,8 @@ class Guard:
         inner["path"] = scope["path"][len(prefix) :]
         inner["raw_path"] = inner["path"].encode()
         if scope["type"] == "http":
-            await _Bounded(self._app, _most_bytes(inner["path"])).serve(inner, receive, send)
+            most = LIMITS.upload if inner["path"] == "/api/import" else LIMITS.body
+            await _Bounded(self._app, most).serve(inner, receive, send)
         else:
             await self._app(inner, receive, send)
 
@@ -155,10 +156,6 @@ class _Bounded:
                 await _refuse(
                     scope, send, *(large if self._too_large else (500, "The studio failed; its log says how."))
                 )
-
-
-def _most_bytes(path: str) -> int:
-    return LIMITS.upload if path == "/api/import" else LIMITS.body
 
 
 def _is_address(name: str) -> bool:

@@ -1,4 +1,4 @@
-"""What a page may send, checked as it comes in."""
+"""Messages of the page, of HTTP and of the socket, as pydantic models."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class StrokeMessage(Strict):
         """Return the stroke, times from 0; points that share a time stamp share the time to the next.
 
         Raises:
-            InvalidInputError: If it does not move, its clock runs backwards, or it lasts for ages.
+            InvalidInputError: If it does not move, its clock runs backwards, or it lasts too long.
         """
         try:
             times = spread_ties(np.array(self.times))
@@ -153,7 +153,7 @@ class RequestMessage(Strict):
         return Request(self.movement, self.focus)
 
 
-class People(RequestMessage):
+class PeopleRequest(RequestMessage):
     """POST people."""
 
     part: Literal["signs", "movement"]
@@ -167,7 +167,7 @@ class Ask(Strict):
     request: RequestMessage | None = None
 
 
-class Verdict(Strict):
+class NewVerdict(Strict):
     """POST verdict."""
 
     good: bool | None
@@ -200,21 +200,21 @@ _SOCKET: TypeAdapter[SocketMessage] = TypeAdapter(Annotated[SocketMessage, Field
 
 
 def read_socket_message(text: str) -> SocketMessage:
-    """Read what a page says on the socket.
+    """Read a message of the socket.
 
     Raises:
-        InvalidInputError: If it is nothing that we know.
+        InvalidInputError: If it is none.
     """
     try:
         return _SOCKET.validate_python(json.loads(text))
     except ValidationError as error:
-        raise InvalidInputError("message", "watch, drag or shove", complaint(error.errors())) from None
+        raise InvalidInputError("message", "watch, drag or shove", describe_errors(error.errors())) from None
     except (ValueError, RecursionError):
         raise InvalidInputError("message", "JSON", f"{text[:40]!r}") from None
 
 
-def complaint(errors: Any) -> str:
-    """Say the first of pydantic's errors in a phrase."""
+def describe_errors(errors: Any) -> str:
+    """Return the first of pydantic's errors as a phrase."""
     first = errors[0]
     place = ".".join(str(part) for part in first["loc"] if part != "body")
     return f"{place}: {first['msg']}" if place else str(first["msg"])

@@ -1,4 +1,4 @@
-"""Running the studio on this machine."""
+"""Serving the studio: listener, address with a token, and the server in this thread or another."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _EVERYWHERE = ("0.0.0.0", "::", "")
 
 @dataclass(frozen=True, kw_only=True)
 class StudioPlan:
-    """What is served, and where.
+    """Settings of a served studio.
 
     Attributes:
         folder: Where sessions are kept.
@@ -77,7 +77,7 @@ def running_studio(plan: StudioPlan) -> Iterator[str]:
 
 
 def _make_server(plan: StudioPlan, listener: socket.socket) -> tuple[uvicorn.Server, str]:
-    """Make a server of a studio, and its address."""
+    """Make the server of a studio, and its address."""
     try:
         import uvicorn
         import websockets  # noqa: F401 -- uvicorn would go on without it, and without a socket

@@ -111,7 +111,7 @@ def test_without_opengl_frames_have_no_picture_and_stills_say_why(monkeypatch: p
     watched.camera.start()
     header, picture = watched.frame()
     assert (header["objects"], picture) == (OBJECTS.tolist(), b"")
-    assert "no OpenGL library was found" in watched.camera.why_blind(60)
+    assert "no OpenGL library was found" in watched.camera.unavailable_reason(60)
     with pytest.raises(RenderingError, match="no OpenGL library was found"):
         watched.camera.still(OBJECTS).result(60)
     watched.camera.close()

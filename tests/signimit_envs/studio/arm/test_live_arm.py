@@ -1,4 +1,4 @@
-"""The arm obeys, follows what is dragged, comes back when shoved, and tells what it did."""
+"""The arm obeys, follows what is dragged, comes back when shoved, tells what it did, and keeps up with the clock."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 import signimit as si
 from signimit.teaching.people import Person
 from signimit.teaching.scenes import drawn_path, sample_times
-from signimit_envs.studio.arm.live_arm import OBJECT_WIDTH, LiveArm
-from signimit_envs.studio.arm.live_state import Errand, TrackPart, is_alike
+from signimit_envs.studio.arm.live_arm import FASTEST_CATCH_UP, LONGEST_DELAY, OBJECT_WIDTH, LiveArm, RealTimeClock
+from signimit_envs.studio.arm.live_state import Task, TrackPart, is_alike
 
 OBJECTS = np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]])
 ORIGIN = np.zeros(2)
+PERIOD = 0.02  # s, of a control step
 
 
 @pytest.fixture(scope="module")
@@ -55,7 +56,7 @@ def _path(arm: LiveArm, steps: int) -> NDArray[np.float64]:
 def test_the_hand_draws_about_the_object_that_was_asked_for(
     arm: LiveArm, policy: si.Policy, loops: list[NDArray[np.float64]]
 ) -> None:
-    arm.obey(Errand("session", 0, policy, 2, "text"))
+    arm.obey(Task("session", 0, policy, 2, "text"))
     performance = si.performed(_path(arm, 400), OBJECTS, [loops])
     assert (performance.movement, performance.focus) == (0, 2)
 
@@ -63,7 +64,7 @@ def test_the_hand_draws_about_the_object_that_was_asked_for(
 def test_the_path_follows_an_object_that_is_dragged_away(
     arm: LiveArm, policy: si.Policy, loops: list[NDArray[np.float64]]
 ) -> None:
-    arm.obey(Errand("session", 0, policy, 2, "text"))
+    arm.obey(Task("session", 0, policy, 2, "text"))
     _path(arm, 200)
     there = np.array([-0.05, -0.15])
     for share in np.linspace(0, 1, 25):
@@ -79,7 +80,7 @@ def test_the_path_follows_an_object_that_is_dragged_away(
 def test_a_shoved_hand_leaves_its_path_and_comes_back(
     arm: LiveArm, policy: si.Policy, loops: list[NDArray[np.float64]]
 ) -> None:
-    arm.obey(Errand("session", 0, policy, 2, "text"))
+    arm.obey(Task("session", 0, policy, 2, "text"))
     _path(arm, 250)
     course = np.concatenate(loops) + OBJECTS[2]
 
@@ -142,41 +143,41 @@ def test_the_arm_rests_when_told_to_and_by_itself_after_a_while(
     arm: LiveArm, policy: si.Policy, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("signimit_envs.studio.arm.live_arm.ANSWER_SECONDS", 1.0)
-    arm.obey(Errand("session", 0, policy, 0, "text"))
+    arm.obey(Task("session", 0, policy, 0, "text"))
     _path(arm, 10)
-    assert arm.state.errand is not None
+    assert arm.state.task is not None
     arm.rest()
     resting = _path(arm, 20)
-    assert arm.state.errand is None
+    assert arm.state.task is None
     assert np.ptp(resting[10:], axis=0).max() < 1e-4
-    arm.obey(Errand("session", 1, policy, 0, "text"))
+    arm.obey(Task("session", 1, policy, 0, "text"))
     _path(arm, 50)
-    assert arm.state.errand is not None
+    assert arm.state.task is not None
     arm.step()
-    assert arm.state.errand is None
+    assert arm.state.task is None
 
 
 def test_what_the_arm_did_is_handed_over_second_by_second_and_whole(
     arm: LiveArm, policy: si.Policy, parts: list[TrackPart]
 ) -> None:
-    errand = Errand("session", 3, policy, 1, "text")
-    arm.obey(errand)
+    task = Task("session", 3, policy, 1, "text")
+    arm.obey(task)
     path = _path(arm, 120)
     arm.rest()
     arm.step()
     assert [(part.first, len(part.path)) for part in parts] == [(0, 50), (50, 50), (100, 20)]
-    assert all(part.errand is errand for part in parts)
+    assert all(part.task is task for part in parts)
     np.testing.assert_array_equal(np.concatenate([part.path for part in parts]), path)
     assert parts[0].objects.shape == (50, 3, 2)
     assert parts[0].joints.shape == (50, 3)
 
 
 def test_another_number_of_objects_gets_another_table(arm: LiveArm, policy: si.Policy) -> None:
-    arm.obey(Errand("session", 0, policy, 2, "text"))
+    arm.obey(Task("session", 0, policy, 2, "text"))
     arm.put("other", np.vstack([OBJECTS, [[-0.2, -0.2], [0.2, 0.2]]]), ORIGIN)
-    arm.obey(Errand("session", 1, policy, 2, "of a session that has lost the table"))
+    arm.obey(Task("session", 1, policy, 2, "of a session that has lost the table"))
     arm.step()
-    assert (arm.state.session, arm.state.errand, len(arm.state.objects)) == ("other", None, 5)
+    assert (arm.state.session, arm.state.task, len(arm.state.objects)) == ("other", None, 5)
 
 
 def test_a_policy_that_fails_makes_the_arm_rest_not_die(arm: LiveArm, caplog: pytest.LogCaptureFixture) -> None:
@@ -184,11 +185,11 @@ def test_a_policy_that_fails_makes_the_arm_rest_not_die(arm: LiveArm, caplog: py
         raise ArithmeticError("no way")
 
     arm.start()
-    arm.obey(Errand("session", 0, broken, 0, "text"))  # type: ignore[arg-type]
+    arm.obey(Task("session", 0, broken, 0, "text"))  # type: ignore[arg-type]
     _wait_for(lambda: "the arm failed and rests" in caplog.text)
     before = arm.state.time
     _wait_for(lambda: arm.state.time > before)
-    assert arm.state.errand is None
+    assert arm.state.task is None
 
 
 def test_an_arm_that_fails_again_and_again_is_logged_once(
@@ -207,7 +208,7 @@ def test_an_arm_that_fails_again_and_again_is_logged_once(
 
 
 def test_the_trail_is_short_and_the_states_do_not_change(arm: LiveArm, policy: si.Policy) -> None:
-    arm.obey(Errand("session", 0, policy, 0, "text"))
+    arm.obey(Task("session", 0, policy, 0, "text"))
     arm.step()
     state = arm.state
     seen = state.hand.copy(), state.objects.copy(), len(state.trail)
@@ -226,3 +227,55 @@ def _wait_for(condition: object) -> None:
             return
         time.sleep(0.01)
     raise AssertionError("it never happened")
+
+
+def _starts(held_up: NDArray[np.float64]) -> tuple[NDArray[np.float64], float, RealTimeClock]:
+    """Return when steps begin that take so long each, where sleep is exact; and when the last one's wait is over."""
+    clock, now, starts = RealTimeClock(PERIOD, 100.0), 100.0, []
+    for taken in held_up:
+        starts.append(now)
+        now += taken
+        now += clock.wait(now)
+    return np.array(starts), now, clock
+
+
+def test_steps_are_a_period_apart_when_nothing_holds_them_up() -> None:
+    starts, _, clock = _starts(np.full(500, 0.003))
+    np.testing.assert_allclose(starts, 100.0 + PERIOD * np.arange(500), atol=1e-9)
+    assert clock.lost == 0.0
+
+
+@pytest.mark.parametrize("delay", [0.03, 0.3, 0.9, 4.0])
+def test_a_delay_is_made_up_for_to_the_last_step_and_without_a_jump(delay: float) -> None:
+    taken = np.full(600, 0.003)
+    taken[10] = delay
+    starts, _, clock = _starts(taken)
+    gaps = np.diff(starts)
+    assert gaps[10] == pytest.approx(delay)
+    assert np.delete(gaps, 10).min() >= PERIOD / FASTEST_CATCH_UP - 1e-9
+    behind = starts - (100.0 + PERIOD * np.arange(600))
+    over = 11 + int(np.ceil(delay / (PERIOD - PERIOD / FASTEST_CATCH_UP))) + 1
+    np.testing.assert_allclose(behind[over:], 0.0, atol=1e-9)
+    assert clock.lost == 0.0
+
+
+def test_a_machine_that_slept_goes_on_from_where_it_is_and_says_what_was_lost() -> None:
+    taken = np.full(50, 0.003)
+    taken[10] = LONGEST_DELAY + 60.0
+    starts, _, clock = _starts(taken)
+    np.testing.assert_allclose(np.diff(starts)[11:], PERIOD, atol=1e-9)
+    assert clock.lost == pytest.approx(LONGEST_DELAY + 60.0 - PERIOD)
+
+
+def test_random_delays_leave_simulated_time_equal_to_real_time() -> None:
+    rng = np.random.default_rng(0)
+    taken = np.where(rng.random(5000) < 0.02, rng.uniform(0.0, 0.4, 5000), 0.002)
+    taken[-200:] = 0.002
+    _, end, clock = _starts(taken)
+    assert end - 100.0 == pytest.approx(5000 * PERIOD)
+    assert clock.lost == 0.0
+
+
+def test_steps_that_always_take_longer_than_a_period_are_made_without_a_wait() -> None:
+    starts, _, _ = _starts(np.full(100, 1.1 * PERIOD))
+    np.testing.assert_allclose(np.diff(starts), 1.1 * PERIOD)

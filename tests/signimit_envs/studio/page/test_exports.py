@@ -15,10 +15,10 @@ from signimit import PAPER_LANGUAGE, InvalidInputError, StrokeLibrary
 from signimit.teaching.languages import Request
 from signimit_envs.studio.limits import Limits
 from signimit_envs.studio.page.exports import FORMATS, export_bytes, import_bytes, to_library
-from signimit_envs.studio.store.events import Shown
+from signimit_envs.studio.store.events import DrawnDemonstration
 
 pytest.importorskip("defusedxml", reason="InkML needs signimit[strokes]")
-Make = Callable[[], Shown]
+Make = Callable[[], DrawnDemonstration]
 
 
 @pytest.mark.parametrize("name", FORMATS)

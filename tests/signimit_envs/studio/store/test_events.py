@@ -21,11 +21,11 @@ from signimit_envs.studio.store.events import (
     Deleted,
     Demonstrated,
     Drafted,
+    DrawnDemonstration,
     Event,
     Judged,
     Redone,
     Redrawn,
-    Shown,
     Titled,
     Undone,
     event_from_json,
@@ -54,7 +54,7 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b)
 
 
-def test_every_event_comes_back_from_json_to_the_last_bit(shown: Callable[[], Shown]) -> None:
+def test_every_event_comes_back_from_json_to_the_last_bit(shown: Callable[[], DrawnDemonstration]) -> None:
     one = dataclasses.replace(shown(), prompt=Request(2, 1), by="built-in people")
     events: list[Event] = [
         Created("a title", "2020-01-01T00:00:00", "paper", 3, 7),
@@ -76,7 +76,7 @@ def test_every_event_comes_back_from_json_to_the_last_bit(shown: Callable[[], Sh
 
 
 @pytest.mark.parametrize("lacking", ["event", "number", "shown"])
-def test_an_event_that_lacks_something_is_refused(lacking: str, shown: Callable[[], Shown]) -> None:
+def test_an_event_that_lacks_something_is_refused(lacking: str, shown: Callable[[], DrawnDemonstration]) -> None:
     value = event_to_json(Redrawn(0, shown()))
     del value[lacking]
     with pytest.raises(InvalidInputError, match="event: expected one of created, demonstrated"):
@@ -92,7 +92,7 @@ def test_a_beginning_that_is_none_is_refused(name: str, value: Any) -> None:
         event_from_json({**beginning, name: value})
 
 
-def test_a_stroke_that_is_not_finite_is_refused(shown: Callable[[], Shown]) -> None:
+def test_a_stroke_that_is_not_finite_is_refused(shown: Callable[[], DrawnDemonstration]) -> None:
     value = event_to_json(Demonstrated((shown(),)))
     value["shown"][0]["hand"]["points"][3][0] = float("nan")
     with pytest.raises(InvalidInputError, match="stroke points: expected finite numbers"):

@@ -17,53 +17,55 @@ from signimit_envs.studio.store.events import (
     Deleted,
     Demonstrated,
     Drafted,
+    DrawnDemonstration,
     Event,
     Judged,
     Redone,
     Redrawn,
-    Shown,
     Titled,
     Undone,
 )
-from signimit_envs.studio.store.history import after, retell
+from signimit_envs.studio.store.history import apply_event, replay_events
 
 BEGINNING = Created("title", "2020-01-01T00:00:00", "paper", 3, 0)
-Make = Callable[[], Shown]
+Make = Callable[[], DrawnDemonstration]
 
 
 def test_demonstrations_are_added_redrawn_and_deleted_in_their_places(shown: Make) -> None:
     a, b, c, d = (shown() for _ in range(4))
-    history = retell([BEGINNING, Demonstrated((a,)), Demonstrated((b, c)), Redrawn(1, d), Deleted(0)])
+    history = replay_events([BEGINNING, Demonstrated((a,)), Demonstrated((b, c)), Redrawn(1, d), Deleted(0)])
     assert history.shown == (d, c)
     assert history.revision == 4
 
 
 def test_undo_takes_back_edits_one_by_one_and_redo_brings_them_again(shown: Make) -> None:
     a, b = shown(), shown()
-    history = retell([BEGINNING, Demonstrated((a,)), Demonstrated((b,)), Deleted(0), Undone(), Undone()])
+    history = replay_events([BEGINNING, Demonstrated((a,)), Demonstrated((b,)), Deleted(0), Undone(), Undone()])
     assert history.shown == (a,)
-    history = after(after(history, Redone()), Redone())
+    history = apply_event(apply_event(history, Redone()), Redone())
     assert history.shown == (b,)
     assert not history.future
 
 
 def test_an_edit_after_an_undo_leaves_nothing_to_redo(shown: Make) -> None:
-    history = retell([BEGINNING, Demonstrated((shown(),)), Undone(), Demonstrated((shown(),))])
+    history = replay_events([BEGINNING, Demonstrated((shown(),)), Undone(), Demonstrated((shown(),))])
     with pytest.raises(InvalidInputError, match="redo: expected something that was undone"):
-        after(history, Redone())
+        apply_event(history, Redone())
 
 
 def test_the_last_stroke_at_a_place_of_a_draft_counts(shown: Make) -> None:
     (a, b), (c, _) = shown().signs, shown().signs
-    history = retell([BEGINNING, Drafted(None, {"sign 1": (a,), "hand": (b,)}), Drafted(None, {"sign 1": (c,)})])
+    history = replay_events([BEGINNING, Drafted(None, {"sign 1": (a,), "hand": (b,)}), Drafted(None, {"sign 1": (c,)})])
     assert history.draft.drawn == {"sign 1": (c,), "hand": (b,)}
     assert (history.revision, history.events) == (0, 3)
-    assert after(history, Titled("another")).draft is history.draft
+    assert apply_event(history, Titled("another")).draft is history.draft
 
 
 def test_a_draft_of_another_demonstration_begins_with_nothing(shown: Make) -> None:
     a, b = shown().signs
-    history = retell([BEGINNING, Demonstrated((shown(),)), Drafted(None, {"sign 1": (a,)}), Drafted(0, {"hand": (b,)})])
+    history = replay_events(
+        [BEGINNING, Demonstrated((shown(),)), Drafted(None, {"sign 1": (a,)}), Drafted(0, {"hand": (b,)})]
+    )
     assert (history.draft.number, history.draft.drawn) == (0, {"hand": (b,)})
 
 
@@ -72,31 +74,33 @@ def test_an_edit_of_the_demonstrations_ends_the_draft_and_asking_ends_the_questi
     draft = Drafted(None, {"sign 1": (a,), "question": (b,)})
     edits: list[Event] = [Demonstrated((shown(),)), Redrawn(0, shown()), Deleted(1), Undone()]
     for edit in edits:
-        history = retell([BEGINNING, Demonstrated((shown(), shown())), draft, edit])
+        history = replay_events([BEGINNING, Demonstrated((shown(), shown())), draft, edit])
         assert history.draft.drawn == {"question": (b,)}
-    history = retell([BEGINNING, Demonstrated((shown(),)), draft, Asked((b, b), 0, 0, 1.0)])
+    history = replay_events([BEGINNING, Demonstrated((shown(),)), draft, Asked((b, b), 0, 0, 1.0)])
     assert history.draft.drawn == {"sign 1": (a,)}
 
 
 @pytest.mark.parametrize("event", [Drafted(1, {"hand": ()}), Drafted(None, {"foot": ()})])
 def test_a_draft_of_what_is_not_there_is_refused(event: Event, shown: Make) -> None:
     with pytest.raises(InvalidInputError, match=r"demonstration: expected a number below 1|draft: expected some of"):
-        retell([BEGINNING, Demonstrated((shown(),)), event])
+        replay_events([BEGINNING, Demonstrated((shown(),)), event])
 
 
 def test_nothing_can_be_undone_at_the_beginning() -> None:
     with pytest.raises(InvalidInputError, match="undo: expected something to take back"):
-        after(retell([BEGINNING]), Undone())
+        apply_event(replay_events([BEGINNING]), Undone())
 
 
 def test_a_title_is_no_edit_of_demonstrations_but_changes_the_revision(shown: Make) -> None:
-    history = retell([BEGINNING, Demonstrated((shown(),)), Titled("new"), Undone()])
+    history = replay_events([BEGINNING, Demonstrated((shown(),)), Titled("new"), Undone()])
     assert (history.title, history.shown, history.revision) == ("new", (), 3)
 
 
 def test_asking_and_judging_leave_the_revision_alone(shown: Make) -> None:
     signs = shown().signs
-    history = retell([BEGINNING, Asked(signs, 0, 0, 0.5), Asked(signs, 1, 2, 0.9), Judged(1, False), Judged(1, True)])
+    history = replay_events(
+        [BEGINNING, Asked(signs, 0, 0, 0.5), Asked(signs, 1, 2, 0.9), Judged(1, False), Judged(1, True)]
+    )
     assert [given.good for given in history.answers] == [None, True]
     assert history.revision == 0
 
@@ -104,41 +108,45 @@ def test_asking_and_judging_leave_the_revision_alone(shown: Make) -> None:
 @pytest.mark.parametrize("event", [Deleted(1), Deleted(-1), Judged(0, True)])
 def test_what_is_not_there_cannot_be_changed(event: Event, shown: Make) -> None:
     with pytest.raises(InvalidInputError, match="expected a number below"):
-        retell([BEGINNING, Demonstrated((shown(),)), event])
+        replay_events([BEGINNING, Demonstrated((shown(),)), event])
 
 
 def test_a_demonstration_with_other_objects_does_not_fit() -> None:
     with pytest.raises(InvalidInputError, match="demonstration 0: objects: expected 4, found 3"):
-        retell([Created("", "", "free", 4, 0), Demonstrated((_shown_once(),))])
+        replay_events([Created("", "", "free", 4, 0), Demonstrated((_shown_once(),))])
 
 
 def test_a_session_begins_once() -> None:
     for events in ([], [Undone()], [BEGINNING, BEGINNING]):
         with pytest.raises(InvalidInputError, match="beginning"):
-            retell(events)
+            replay_events(events)
 
 
 @settings(deadline=None, max_examples=30)
 @given(st.lists(st.sampled_from(["add", "delete", "undo", "redo"]), max_size=25))
 def test_undo_is_what_a_list_of_snapshots_would_give(deeds: list[str]) -> None:
     """A slow oracle: all states in a list, and where we are in it."""
-    history, at = retell([BEGINNING]), 0
-    snapshots: list[tuple[Shown, ...]] = [()]
+    history, at = replay_events([BEGINNING]), 0
+    snapshots: list[tuple[DrawnDemonstration, ...]] = [()]
     for deed in deeds:
         now = snapshots[at]
         if deed == "undo" and at:
-            history, at = after(history, Undone()), at - 1
+            history, at = apply_event(history, Undone()), at - 1
         elif deed == "redo" and at + 1 < len(snapshots):
-            history, at = after(history, Redone()), at + 1
+            history, at = apply_event(history, Redone()), at + 1
         elif deed == "add":
             one = _shown_once()
-            history, snapshots, at = after(history, Demonstrated((one,))), [*snapshots[: at + 1], (*now, one)], at + 1
+            history, snapshots, at = (
+                apply_event(history, Demonstrated((one,))),
+                [*snapshots[: at + 1], (*now, one)],
+                at + 1,
+            )
         elif deed == "delete" and now:
-            history, snapshots, at = after(history, Deleted(0)), [*snapshots[: at + 1], now[1:]], at + 1
+            history, snapshots, at = apply_event(history, Deleted(0)), [*snapshots[: at + 1], now[1:]], at + 1
         assert history.shown == snapshots[at]
 
 
-def _shown_once() -> Shown:
+def _shown_once() -> DrawnDemonstration:
     places = np.arange(6.0).reshape(3, 2)
     stroke = Stroke(places, np.arange(3.0))
-    return Shown((stroke, stroke), places, stroke)
+    return DrawnDemonstration((stroke, stroke), places, stroke)

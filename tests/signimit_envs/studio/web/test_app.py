@@ -84,7 +84,7 @@ def test_undo_brings_back_what_was_believed_without_learning_again(
 ) -> None:
     before = page.teach(session, 1)
     after = page.teach(before, 1)
-    monkeypatch.setattr("signimit_envs.studio.store.open_session.understand", None)
+    monkeypatch.setattr("signimit_envs.studio.open_session.learn_session", None)
     undone = page.post(f"sessions/{session['id']}/undo", {"revision": after["revision"]})
     assert undone["belief"] == before["belief"]
     assert undone["next"] == before["next"]
@@ -93,7 +93,7 @@ def test_undo_brings_back_what_was_believed_without_learning_again(
 
 
 def test_a_session_takes_only_so_many_events(page: Any, session: Json, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("signimit_envs.studio.store.open_session.LIMITS", Limits(events=3))
+    monkeypatch.setattr("signimit_envs.studio.open_session.LIMITS", Limits(events=3))
     where = f"sessions/{session['id']}/title"
     codes = [page.ask("POST", where, json={"revision": n, "title": "new"}).status_code for n in range(4)]
     assert codes == [200, 200, 422, 409]

@@ -1,1 +1,1 @@
-"""A part of the studio."""
+"""The routes of the studio, a module for each view of the page."""

@@ -1,4 +1,4 @@
-"""Asking: the arm answers, lives on a socket, and is judged."""
+"""Routes of Ask: the live table, answers of the arm, verdicts, and the socket."""
 
 from __future__ import annotations
 
@@ -14,16 +14,13 @@ from signimit_envs.studio.arm.viewers import Viewer
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page.views import answer_json, session_json, track_json
 from signimit_envs.studio.store.events import Judged, stroke_to_json
-from signimit_envs.studio.store.open_session import OpenSession
-from signimit_envs.studio.studio import NotHereError, Studio
+from signimit_envs.studio.studio import Studio
 from signimit_envs.studio.web.guard import Bucket
-from signimit_envs.studio.web.messages import Ask, Drag, Shove, Verdict, Watch, read_socket_message, signs_of
+from signimit_envs.studio.web.messages import Ask, Drag, NewVerdict, Shove, Watch, read_socket_message, signs_of
 from signimit_envs.studio.web.routes.dependencies import Json, Number, SessionId, TheStudio
 
 BAD_MESSAGE, TOO_MANY_MESSAGES, TOO_MANY_VIEWERS, TOO_BIG, NOT_TEXT = 4400, 4429, 4503, 1009, 1003
 _log = logging.getLogger(__name__)
-
-
 routes = APIRouter(tags=["ask"])
 
 
@@ -55,10 +52,10 @@ async def stop(studio: TheStudio, session_id: SessionId) -> Json:
 
 
 @routes.post("/api/sessions/{session_id}/answers/{number}/verdict")
-async def verdict(studio: TheStudio, session_id: SessionId, number: Number, body: Verdict) -> Json:
-    """Keep what a person thinks of an answer."""
+async def verdict(studio: TheStudio, session_id: SessionId, number: Number, body: NewVerdict) -> Json:
+    """Keep a person's verdict on an answer."""
     session = await studio.open(session_id)
-    _check_answer(session, number)
+    session.answer(number)
     await session.note(Judged(number, body.good))
     studio.changed(session)
     return session_json(session, studio.arm.state)
@@ -68,12 +65,11 @@ async def verdict(studio: TheStudio, session_id: SessionId, number: Number, body
 async def answer(studio: TheStudio, session_id: SessionId, number: Number) -> Json:
     """Return what the arm was asked and what it did."""
     session = await studio.open(session_id)
-    _check_answer(session, number)
-    given = session.history.answers[number]
-    parts = await asyncio.to_thread(studio.shelf.read_track, session.name, number)
+    answered = session.answer(number)
+    parts = await asyncio.to_thread(studio.store.read_track, session.name, number)
     return {
-        **answer_json(session, number, given, studio.arm.state),
-        "signs": [stroke_to_json(sign) for sign in given.asked.signs],
+        **answer_json(session, number, answered, studio.arm.state),
+        "signs": [stroke_to_json(sign) for sign in answered.asked.signs],
         **track_json(parts),
     }
 
@@ -119,7 +115,7 @@ async def _listen(socket: WebSocket, viewer: Viewer, studio: Studio) -> None:
         try:
             if not bucket.take():
                 raise Refusal(TOO_MANY_MESSAGES, f"at most {LIMITS.messages} messages a second")
-            _obey(_checked(text), viewer, studio)
+            _obey(_parse(text), viewer, studio)
         except Refusal as refusal:
             _log.warning("closed a socket with %d: %s", refusal.code, refusal.reason)
             await socket.close(refusal.code, refusal.reason[:100])
@@ -127,7 +123,7 @@ async def _listen(socket: WebSocket, viewer: Viewer, studio: Studio) -> None:
 
 
 class Refusal(Exception):
-    """A message that ends the conversation."""
+    """A message that closes the socket, with its code and reason."""
 
     def __init__(self, code: int, reason: str) -> None:
         """Keep both."""
@@ -135,7 +131,7 @@ class Refusal(Exception):
         super().__init__(code, reason)
 
 
-def _checked(text: str | None) -> Watch | Drag | Shove:
+def _parse(text: str | None) -> Watch | Drag | Shove:
     if text is None:
         raise Refusal(NOT_TEXT, "text only")
     if len(text.encode("utf-8", "replace")) > LIMITS.message:
@@ -153,8 +149,3 @@ def _obey(message: Watch | Drag | Shove, viewer: Viewer, studio: Studio) -> None
         studio.arm.drag(message.object, np.array(message.to))
     else:
         studio.arm.shove(np.array(message.velocity))
-
-
-def _check_answer(session: OpenSession, number: int) -> None:
-    if number >= len(session.history.answers):
-        raise NotHereError("There is no such answer.")

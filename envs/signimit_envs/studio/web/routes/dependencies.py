@@ -1,4 +1,4 @@
-"""What all routes are given: the studio, and the parts of an address."""
+"""FastAPI dependencies and path parameters that the routes share."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.studio import Studio
 
 
-async def _the_studio(connection: HTTPConnection) -> Studio:
+async def _get_studio(connection: HTTPConnection) -> Studio:
     studio: Studio = connection.app.state.studio
     return studio
 
 
-TheStudio = Annotated[Studio, Depends(_the_studio)]
+TheStudio = Annotated[Studio, Depends(_get_studio)]
 SessionId = Annotated[str, Path(max_length=64)]
 Number = Annotated[int, Path(ge=0, le=LIMITS.answers)]
 Json = dict[str, Any]

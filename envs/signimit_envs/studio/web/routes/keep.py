@@ -1,4 +1,4 @@
-"""Keeping: sessions as files of other kinds, and back."""
+"""Routes of Keep: export of a session and import of another."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Teaching: sessions, demonstrations, and the built-in people."""
+"""Routes of Teach: sessions, demonstrations, drafts, undo and redo, and the built-in people."""
 
 from __future__ import annotations
 
@@ -9,31 +9,30 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Response
 
 from signimit.exceptions import InvalidInputError
-from signimit.teaching.languages import Language, Request
 from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance
 from signimit_envs.studio.page.prompts import get_language, next_request
 from signimit_envs.studio.page.views import demonstration_json, session_json
 from signimit_envs.studio.store.events import (
     Deleted,
     Demonstrated,
+    DrawnDemonstration,
     Event,
     Redone,
     Redrawn,
-    Shown,
     Titled,
     Undone,
     stroke_to_json,
 )
-from signimit_envs.studio.store.open_session import OpenSession
-from signimit_envs.studio.studio import NotHereError, Studio
+from signimit_envs.studio.studio import Studio
 from signimit_envs.studio.web.messages import (
     Merge,
     NewDemonstration,
     NewDraft,
     NewSession,
     NewTitle,
-    People,
+    PeopleRequest,
     Revised,
     signs_of,
 )
@@ -46,7 +45,7 @@ routes = APIRouter(prefix="/api/sessions", tags=["teach"])
 @routes.get("")
 async def listed(studio: TheStudio) -> Json:
     """List the sessions, the newest first."""
-    found = await asyncio.to_thread(studio.shelf.listed)
+    found = await asyncio.to_thread(studio.store.listed)
     return {"sessions": [one._asdict() for one in found]}
 
 
@@ -70,15 +69,18 @@ async def shown(studio: TheStudio, session_id: SessionId) -> Json:
 async def scene(studio: TheStudio, session_id: SessionId) -> Response:
     """Picture the table of the next demonstration."""
     session = await studio.open(session_id)
-    return await _still(studio, session.understood.objects)
+    return await _still(studio, session.learned.objects)
 
 
 @routes.post("/{session_id}/demonstrations")
 async def demonstrate(studio: TheStudio, session_id: SessionId, body: NewDemonstration) -> Json:
     """Add a demonstration, made in the scene that the session said comes next."""
     session = await studio.open(session_id)
-    prompt = _prompt(session) if body.prompted else None
-    shown = Shown(signs_of(body.signs), session.understood.objects, body.hand_stroke(), prompt, body.by)
+    language, prompt = get_language(session.created.language), None
+    if body.prompted and language is not None:
+        prompts = [shown.prompt for shown in session.history.shown]
+        prompt = next_request(language, session.created.seed, prompts).request
+    shown = DrawnDemonstration(signs_of(body.signs), session.learned.objects, body.hand_stroke(), prompt, body.by)
     return await _edited(studio, session, body.revision, Demonstrated((shown,)))
 
 
@@ -86,9 +88,9 @@ async def demonstrate(studio: TheStudio, session_id: SessionId, body: NewDemonst
 async def redraw(studio: TheStudio, session_id: SessionId, number: Number, body: NewDemonstration) -> Json:
     """Put another drawing in the place of a demonstration, in its scene."""
     session = await studio.open(session_id)
-    old = _existing(session, number)
+    old = session.demonstration(number)
     prompt = old.prompt if body.prompted else None
-    again = Shown(signs_of(body.signs), old.objects, body.hand_stroke(), prompt, body.by)
+    again = DrawnDemonstration(signs_of(body.signs), old.objects, body.hand_stroke(), prompt, body.by)
     return await _edited(studio, session, body.revision, Redrawn(number, again))
 
 
@@ -97,7 +99,7 @@ async def draft(studio: TheStudio, session_id: SessionId, body: NewDraft) -> Jso
     """Keep what is drawn of a demonstration that is not sent yet, at the places that are named."""
     session = await studio.open(session_id)
     if body.number is not None:
-        _existing(session, body.number)
+        session.demonstration(body.number)
     return await _edited(studio, session, body.revision, body.event())
 
 
@@ -105,22 +107,20 @@ async def draft(studio: TheStudio, session_id: SessionId, body: NewDraft) -> Jso
 async def delete(studio: TheStudio, session_id: SessionId, number: Number, revision: RevisionQuery) -> Json:
     """Take a demonstration out."""
     session = await studio.open(session_id)
-    _existing(session, number)
+    session.demonstration(number)
     return await _edited(studio, session, revision, Deleted(number))
 
 
 @routes.get("/{session_id}/demonstrations/{number}")
 async def demonstration(studio: TheStudio, session_id: SessionId, number: Number) -> Json:
     """Return the strokes of a demonstration."""
-    session = await studio.open(session_id)
-    _existing(session, number)
-    return demonstration_json(session, number)
+    return demonstration_json(await studio.open(session_id), number)
 
 
 @routes.get("/{session_id}/demonstrations/{number}/scene.jpg")
 async def demonstration_scene(studio: TheStudio, session_id: SessionId, number: Number) -> Response:
     """Picture the table of a demonstration."""
-    return await _still(studio, _existing(await studio.open(session_id), number).objects)
+    return await _still(studio, (await studio.open(session_id)).demonstration(number).objects)
 
 
 @routes.post("/{session_id}/undo")
@@ -154,15 +154,18 @@ async def merge(studio: TheStudio, session_id: SessionId, body: Merge) -> Json:
 
 
 @routes.post("/{session_id}/people")
-async def people(studio: TheStudio, session_id: SessionId, body: People) -> Json:
+async def people(studio: TheStudio, session_id: SessionId, body: PeopleRequest) -> Json:
     """Let built-in people draw signs, or the movement in the scene that comes next; nothing is stored."""
     session = await studio.open(session_id)
-    created, request = session.created, body.request()
-    _check_request(get_language(created.language), request)
+    created, request, language = session.created, body.request(), get_language(session.created.language)
+    if language is None:
+        raise InvalidInputError("people", "a session in a language that they know", "one in made-up signs")
+    if request not in language.requests:
+        raise InvalidInputError("people", "a movement and an object of the language", f"{tuple(request)}")
     if body.part == "signs":
         signs = await asyncio.to_thread(draw_utterance, created.language, created.seed, request, body.attempt)
         return {"signs": [stroke_to_json(sign) for sign in signs]}
-    scene = session.understood.objects, session.understood.hand
+    scene = session.learned.objects, session.learned.hand
     hand = await asyncio.to_thread(draw_answer, created.language, created.seed, request, body.attempt, scene)
     return {"hand": stroke_to_json(hand)}
 
@@ -176,24 +179,3 @@ async def _edited(studio: Studio, session: OpenSession, revision: int, event: Ev
 async def _still(studio: Studio, objects: Any) -> Response:
     picture = await asyncio.wrap_future(studio.camera.still(objects))
     return Response(picture, media_type="image/jpeg")
-
-
-def _prompt(session: OpenSession) -> Request | None:
-    language = get_language(session.created.language)
-    if language is None:
-        return None
-    prompts = [shown.prompt for shown in session.history.shown]
-    return next_request(language, session.created.seed, prompts).request
-
-
-def _existing(session: OpenSession, number: int) -> Shown:
-    if number >= len(session.history.shown):
-        raise NotHereError("There is no such demonstration.")
-    return session.history.shown[number]
-
-
-def _check_request(language: Language | None, request: Request) -> None:
-    if language is None:
-        raise InvalidInputError("people", "a session in a language that they know", "one in made-up signs")
-    if request not in language.requests:
-        raise InvalidInputError("people", "a movement and an object of the language", f"{tuple(request)}")

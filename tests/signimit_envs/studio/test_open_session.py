@@ -9,45 +9,45 @@ import pytest
 
 from signimit.teaching.languages import Request
 from signimit.teaching.scenes import sample_hand, sample_scene
+from signimit_envs.studio.open_session import LearningResult, learn_session
 from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance, examples, templates
 from signimit_envs.studio.page.prompts import LANGUAGES, get_language, next_request, prompt_text, sign_labels
-from signimit_envs.studio.store.events import Created, Demonstrated, Shown
-from signimit_envs.studio.store.history import History, after, retell
-from signimit_envs.studio.store.understanding import Understood, understand
+from signimit_envs.studio.store.events import Created, Demonstrated, DrawnDemonstration
+from signimit_envs.studio.store.history import History, apply_event, replay_events
 
 SEED = 7
 
 
-def demonstrated(request: Request, number: int) -> Shown:
+def demonstrated(request: Request, number: int) -> DrawnDemonstration:
     rng = np.random.default_rng([number, 1])
     objects, hand = sample_scene(rng), sample_hand(rng)
     signs = draw_utterance("paper", SEED, request, number)
-    return Shown(signs, objects, draw_answer("paper", SEED, request, number, (objects, hand)), request)
+    return DrawnDemonstration(signs, objects, draw_answer("paper", SEED, request, number, (objects, hand)), request)
 
 
 @pytest.fixture(scope="module")
-def steps() -> list[tuple[History, Understood]]:
+def steps() -> list[tuple[History, LearningResult]]:
     """A whole session, demonstration by demonstration."""
-    history = retell([Created("t", "2020-01-01T00:00:00", "paper", 3, SEED)])
-    understood, found = understand(history, None), []
+    history = replay_events([Created("t", "2020-01-01T00:00:00", "paper", 3, SEED)])
+    learned, found = learn_session(history, None), []
     for number in range(12):
         request = next_request(LANGUAGES["paper"], SEED, [one.prompt for one in history.shown]).request
-        history = after(history, Demonstrated((demonstrated(request, number),)))
-        understood = understand(history, understood)
-        found.append((history, understood))
+        history = apply_event(history, Demonstrated((demonstrated(request, number),)))
+        learned = learn_session(history, learned)
+        found.append((history, learned))
     return found
 
 
 def test_before_the_first_demonstration_there_is_a_scene_and_no_belief() -> None:
-    understood = understand(retell([Created("t", "2020-01-01T00:00:00", "free", 5, SEED)]), None)
-    assert understood.model is None
-    assert understood.belief is None
-    assert understood.objects.shape == (5, 2)
+    learned = learn_session(replay_events([Created("t", "2020-01-01T00:00:00", "free", 5, SEED)]), None)
+    assert learned.model is None
+    assert learned.belief is None
+    assert learned.objects.shape == (5, 2)
 
 
-def test_after_all_prompts_the_belief_is_the_language(steps: list[tuple[History, Understood]]) -> None:
-    history, understood = steps[-1]
-    belief, prompts = understood.belief, [one.prompt for one in history.shown]
+def test_after_all_prompts_the_belief_is_the_language(steps: list[tuple[History, LearningResult]]) -> None:
+    history, learned = steps[-1]
+    belief, prompts = learned.belief, [one.prompt for one in history.shown]
     assert belief is not None
     assert belief["focus"] == [prompt.focus for prompt in prompts if prompt]
     movements = [prompt.movement for prompt in prompts if prompt]
@@ -58,10 +58,10 @@ def test_after_all_prompts_the_belief_is_the_language(steps: list[tuple[History,
 
 
 def test_each_belief_can_be_sent_and_has_probabilities_that_sum_to_one(
-    steps: list[tuple[History, Understood]],
+    steps: list[tuple[History, LearningResult]],
 ) -> None:
-    for history, understood in steps:
-        belief = understood.belief
+    for history, learned in steps:
+        belief = learned.belief
         assert belief is not None
         json.dumps(belief, allow_nan=False)
         count = len(history.shown)
@@ -72,7 +72,7 @@ def test_each_belief_can_be_sent_and_has_probabilities_that_sum_to_one(
         assert {doubt["number"] for doubt in belief["doubtful"]} <= set(range(count))
 
 
-def test_the_lexicon_shows_the_signs_of_each_meaning(steps: list[tuple[History, Understood]]) -> None:
+def test_the_lexicon_shows_the_signs_of_each_meaning(steps: list[tuple[History, LearningResult]]) -> None:
     belief = steps[-1][1].belief
     assert belief is not None
     assert [len(entry["strokes"]) for entry in belief["lexicon"]["objects"]] == [4, 4, 4]
@@ -81,42 +81,42 @@ def test_the_lexicon_shows_the_signs_of_each_meaning(steps: list[tuple[History, 
     assert 0.9 < np.abs(strokes).max() <= 1.0
 
 
-def test_one_demonstration_more_gives_the_belief_of_all_at_once(steps: list[tuple[History, Understood]]) -> None:
+def test_one_demonstration_more_gives_the_belief_of_all_at_once(steps: list[tuple[History, LearningResult]]) -> None:
     history, stepwise = steps[-1]
-    at_once = understand(history, None)
+    at_once = learn_session(history, None)
     assert stepwise.belief is not None
     assert at_once.belief is not None
     for key in ("labels", "focus", "word_order", "wish", "focus_probability"):
         assert stepwise.belief[key] == at_once.belief[key]
 
 
-def test_the_wish_is_made_of_signs_that_were_seen(steps: list[tuple[History, Understood]]) -> None:
-    for history, understood in steps:
-        assert understood.belief is not None
-        wish = understood.belief["wish"]
+def test_the_wish_is_made_of_signs_that_were_seen(steps: list[tuple[History, LearningResult]]) -> None:
+    for history, learned in steps:
+        assert learned.belief is not None
+        wish = learned.belief["wish"]
         assert all(0 <= number < len(history.shown) for number in wish["copied"])
         assert len(wish["signs"]) == 2
         assert "I think they ask for movement" in wish["text"]
 
 
-def test_the_next_scene_is_the_same_whenever_the_session_is_read(steps: list[tuple[History, Understood]]) -> None:
-    history, understood = steps[4]
-    again = understand(history, None)
-    np.testing.assert_array_equal(understood.objects, again.objects)
-    np.testing.assert_array_equal(understood.hand, again.hand)
+def test_the_next_scene_is_the_same_whenever_the_session_is_read(steps: list[tuple[History, LearningResult]]) -> None:
+    history, learned = steps[4]
+    again = learn_session(history, None)
+    np.testing.assert_array_equal(learned.objects, again.objects)
+    np.testing.assert_array_equal(learned.hand, again.hand)
 
 
 def test_what_cannot_be_learned_from_is_said_and_can_be_undone(
-    steps: list[tuple[History, Understood]], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    steps: list[tuple[History, LearningResult]], monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     def broken(*arguments: object) -> None:
         raise ZeroDivisionError("strange")
 
-    monkeypatch.setattr("signimit_envs.studio.store.understanding.learn", broken)
+    monkeypatch.setattr("signimit_envs.studio.open_session.learn", broken)
     history, _ = steps[2]
-    understood = understand(history, None)
-    assert understood.model is None
-    assert understood.belief == {"failed": "This cannot be learned from: strange"}
+    learned = learn_session(history, None)
+    assert learned.model is None
+    assert learned.belief == {"failed": "This cannot be learned from: strange"}
     assert "ZeroDivisionError" in caplog.text
 
 

@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from signimit_envs.studio.page.figure_cache import Album
+from signimit_envs.studio.page.pictures import FigureCache
 
 Json = dict[str, Any]
 
 
 def test_a_picture_is_made_once_and_the_oldest_go() -> None:
-    album, made = Album(most=2), []
+    figures, made = FigureCache(most=2), []
 
     def make(name: str) -> Callable[[], bytes]:
         def draw() -> bytes:
@@ -23,9 +23,9 @@ def test_a_picture_is_made_once_and_the_oldest_go() -> None:
         return draw
 
     for name in ("a", "b", "a", "c", "b", "a"):
-        assert album.fill(name, make(name)) == name.encode()
+        assert figures.find_or_draw(name, make(name)) == name.encode()
     assert made == ["a", "b", "c", "a"]
-    assert (album.find("b"), album.find("c"), album.find("a")) == (None, b"c", b"a")
+    assert (figures.find("b"), figures.find("c"), figures.find("a")) == (None, b"c", b"a")
 
 
 def test_a_figure_is_drawn_again_only_when_the_demonstrations_have_changed(
