@@ -45,10 +45,12 @@ from signimit.learning import Movement as Movement
 from signimit.learning import Response as Response
 from signimit.learning import learn as learn
 from signimit.policies import POLICY_KINDS as POLICY_KINDS
+from signimit.policies import PlacedPolicy as PlacedPolicy
 from signimit.policies import Policy as Policy
 from signimit.policies import StatefulPolicy as StatefulPolicy
 from signimit.policies import load_policy as load_policy
 from signimit.policies import make_policy as make_policy
+from signimit.policies import run_policy as run_policy
 from signimit.signs import SignSpace as SignSpace
 from signimit.signs import dtw_distance as dtw_distance
 from signimit.signs import normalised_sign as normalised_sign

@@ -18,8 +18,7 @@ from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learners.base import SignReader, Understanding
 from signimit.learners.model_files import ModelParts, check_policy_kind, frozen, read_model, write_model
-from signimit.policies import DEFAULT_POLICY, Policy, make_policy
-from signimit.policies.frames import PlacedPolicy, on_table
+from signimit.policies import DEFAULT_POLICY, PlacedPolicy, Policy, make_policy
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke
 from signimit.validation import finite_array, item_list, make_generator, moving_points
@@ -45,7 +44,8 @@ class Response(NamedTuple):
     Attributes:
         movement: Number of the movement that was asked for, an index of ``model.movements``.
         focus: Number of the object that was asked for.
-        policy: Velocity, m/s, of a hand at (2,) or hands at (B, 2), m, table frame.
+        policy: Velocity, m/s, of a hand at (2,) or hands at (B, 2), m, table frame; ``policy.at(place)`` is the same
+            about another place.
         confidence: Probability, in the learner's eyes, that both are right.
     """
 
@@ -137,7 +137,7 @@ class ImitationModel:
         reading = self._reader.read(utterance)
         movement, focus = int(reading.movement.argmax()), int(reading.focus.argmax())
         confidence = float(reading.movement[movement] * reading.focus[focus])
-        return Response(movement, focus, on_table(self.policy(movement), places[focus]), confidence)
+        return Response(movement, focus, self.policy(movement).at(places[focus]), confidence)
 
     def respond_if_sure(self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float) -> Response | None:
         """Answer as `respond` does, or decline: return None where the confidence is below ``least``.

@@ -1,4 +1,4 @@
-"""An entry in closed loop: it sees a hand, says how it shall move, 50 times a second, and the hand moves so.
+"""An entry in closed loop: it is shown a hand 50 times a second and says how it shall move, and the hand moves so.
 
 The hand is a point that follows exactly; what the arm's physics adds is `signimit_envs`' business.
 """
@@ -6,14 +6,15 @@ The hand is a point that follows exactly; what the arm's physics adds is `signim
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.commands import Command
-from signimit.benchmark.protocol import CONTROL_PERIOD, Entry, Observation
+from signimit.benchmark.protocol import Entry, Observation
 from signimit.exceptions import InvalidInputError
+from signimit.policies import CONTROL_PERIOD, Policy, run_policy
 
 SECONDS = 10.0  # how long a hand moves for each command
 FASTEST = 1.2  # m/s along either axis, the arm's `max_hand_speed`; what is faster is slowed down as a whole
@@ -29,14 +30,29 @@ def obey(entry: Entry, command: Command, seconds: float = SECONDS) -> NDArray[np
         InvalidInputError: If the entry commands what is not a velocity.
     """
     entry.begin(command.signs, command.objects)
-    steps = round(seconds / CONTROL_PERIOD)
-    path = np.empty((steps + 1, 2))
-    path[0], velocity = command.hand, np.zeros(2)
-    for step in range(steps):
-        observation = Observation(path[step].copy(), velocity.copy(), step * CONTROL_PERIOD)
-        velocity = _checked_velocity(entry.act(observation), step)
-        path[step + 1] = path[step] + CONTROL_PERIOD * velocity
-    return path
+    return run_policy(_EntryPolicy(entry), command.hand, seconds)
+
+
+class _Before(NamedTuple):
+    """State of `_EntryPolicy`: the number of control steps so far, and the last velocity, m/s."""
+
+    steps: int
+    velocity: NDArray[np.float64]
+
+
+class _EntryPolicy(Policy):
+    """What an entry does once it was told a command, as a policy of one hand; the entry itself remembers more."""
+
+    def __init__(self, entry: Entry) -> None:
+        self._entry = entry
+
+    def start(self) -> _Before:
+        return _Before(0, np.zeros(2))
+
+    def step(self, state: _Before, hand: ArrayLike) -> tuple[_Before, NDArray[np.float64]]:
+        observation = Observation(np.array(hand), state.velocity.copy(), state.steps * CONTROL_PERIOD)
+        velocity = _checked_velocity(self._entry.act(observation), state.steps)
+        return _Before(state.steps + 1, velocity), velocity
 
 
 def _checked_velocity(given: Any, step: int) -> NDArray[np.float64]:

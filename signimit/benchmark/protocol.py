@@ -17,8 +17,6 @@ from signimit.demonstrations import DemonstrationSet
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Request
 
-CONTROL_PERIOD = 0.02  # s; `Entry.act` is called at 50 Hz
-
 
 class Observation(NamedTuple):
     """What an entry sees at a control step.

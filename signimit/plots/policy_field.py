@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from signimit.benchmark.studies.path_quality import move_hands
 from signimit.benchmark.studies.policies import Lesson
 from signimit.exceptions import MissingDependencyError
+from signimit.policies import run_policy
 from signimit.policies.base import Array, Policy
 
 try:
@@ -60,7 +60,7 @@ def _draw_portrait(panel: Axes, policy: Policy, lesson: Lesson) -> None:
     velocity = policy(grid)
     panel.quiver(*grid.T, *velocity.T, color=FIELD, alpha=0.55, scale=9.0, width=0.003, zorder=2)
     for start, path, colour in zip(
-        CORNERS, np.moveaxis(move_hands(policy, CORNERS, SECONDS), 1, 0), REPRODUCTION, strict=True
+        CORNERS, np.moveaxis(run_policy(policy, CORNERS, SECONDS), 1, 0), REPRODUCTION, strict=True
     ):
         panel.plot(*path.T, color=colour, linewidth=1.0, zorder=3)
         panel.plot(*start, "o", color=colour, markersize=4, zorder=4)

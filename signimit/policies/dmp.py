@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.base import CONTROL_PERIOD, Array, StoredPolicy, check_hand, frozen
 from signimit.policies.gaussian_mixture import within_speed
 from signimit.policies.reference_path.reference_path import learn_reference_path
 from signimit.policies.reference_path.timing import time_course
-from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 BASES = 40

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import Array, check_hand, demonstrated_velocities
+from signimit.policies.base import Array, StoredPolicy, check_hand, demonstrated_velocities
 from signimit.policies.gaussian_mixture import (
     Mixture,
     bayesian_information,
@@ -21,7 +21,6 @@ from signimit.policies.gaussian_mixture import (
     regress,
     within_speed,
 )
-from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 COMPONENTS = (1, 2, 3, 4, 6, 8, 10, 12, 16)
@@ -63,11 +62,11 @@ class GMRPolicy(StoredPolicy):
         best = min(fits, key=lambda mixture: bayesian_information(mixture, data))
         return cls(best.weights, best.means, best.covariances, limit)
 
-    def __call__(self, hand: ArrayLike) -> Array:
-        """Return velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
+    def step(self, state: None, hand: ArrayLike) -> tuple[None, Array]:
+        """Return no state, and velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
         hands = check_hand(hand)
         mixture = Mixture(self.weights, self.means, self.covariances)
-        return within_speed(regress(mixture, hands.reshape(-1, 2)), self.limit).reshape(hands.shape)
+        return None, within_speed(regress(mixture, hands.reshape(-1, 2)), self.limit).reshape(hands.shape)
 
 
 def position_velocity(demonstrations: Sequence[Stroke]) -> Array:

@@ -15,10 +15,9 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import Array, check_hand
+from signimit.policies.base import Array, StoredPolicy, check_hand
 from signimit.policies.gaussian_mixture import fit_mixture, regress, within_speed
 from signimit.policies.gmr import position_velocity, speed_limit
-from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 NEIGHBOURS, STEPS = 50, 4  # points of a local mixture, and steps of expectation maximisation
@@ -54,12 +53,12 @@ class ILOGMRPolicy(StoredPolicy):
         data = position_velocity(demonstrations)
         return cls(data, speed_limit(data))
 
-    def __call__(self, hand: ArrayLike) -> Array:
-        """Return velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
+    def step(self, state: None, hand: ArrayLike) -> tuple[None, Array]:
+        """Return no state, and velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
         hands = check_hand(hand)
         flat = hands.reshape(-1, 2)
         blocks = [self._local(flat[i : i + BLOCK]) for i in range(0, len(flat), BLOCK)]
-        return np.concatenate([np.zeros((0, 2)), *blocks]).reshape(hands.shape)
+        return None, np.concatenate([np.zeros((0, 2)), *blocks]).reshape(hands.shape)
 
     def _local(self, hands: Array) -> Array:
         _, nearest = self._tree.query(hands, k=min(NEIGHBOURS, len(self.data)))

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import Array, check_hand, demonstrated_velocities
-from signimit.policies.storage import StoredPolicy
+from signimit.policies.base import Array, StoredPolicy, check_hand, demonstrated_velocities
 from signimit.strokes import Stroke
 
 NEIGHBOURS = 50  # the paper's
@@ -54,9 +53,9 @@ class KNearestPolicy(StoredPolicy):
         moving = speed > 1e-6 * speed.max()
         return cls(points[moving], velocity[moving] / speed[moving, None], float(speed[moving].mean()))
 
-    def __call__(self, hand: ArrayLike) -> Array:
-        """Return velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
+    def step(self, state: None, hand: ArrayLike) -> tuple[None, Array]:
+        """Return no state, and velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
         hands, count = check_hand(hand), min(NEIGHBOURS, len(self.points))
         _, nearest = self._tree.query(hands, k=count)
         mean: Array = self.directions[nearest].reshape(*hands.shape[:-1], count, 2).mean(axis=-2)
-        return mean * self.speed
+        return None, mean * self.speed

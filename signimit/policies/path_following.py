@@ -16,10 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.base import CONTROL_PERIOD, Array, StoredPolicy, check_hand, frozen
 from signimit.policies.reference_path.reference_path import learn_reference_path
 from signimit.policies.reference_path.timing import time_course
-from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 PULL = 15.0  # 1/s

@@ -7,12 +7,12 @@ from numpy.typing import NDArray
 
 from signimit import paths
 from signimit.exceptions import InvalidInputError
+from signimit.policies import CONTROL_PERIOD
 from signimit.strokes import Stroke
 
 SCENE_HALF_EXTENT = (0.22, 0.18)  # m, objects and starts lie within this of the table's centre
 LEAST_SEPARATION = 0.14  # m, between two objects
 REACH_SPEED = 0.35  # m/s, mean
-CONTROL_TIME = 0.02  # s, sampling of hand paths
 DRAWING_SPEED = (0.2, 0.4)  # m/s, mean; recordings made with a stylus on a small screen are brought into it
 CANDIDATES, RESTARTS = 64, 100  # places tried before all objects are taken off again, and how often that happens
 
@@ -43,7 +43,7 @@ def reaching_path(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArr
 
     Source: T. Flash and N. Hogan, J. Neuroscience 5, 1985 (doi:10.1523/JNEUROSCI.05-07-01688.1985).
     """
-    steps = max(2, round(float(np.linalg.norm(end - start)) / REACH_SPEED / CONTROL_TIME))
+    steps = max(2, round(float(np.linalg.norm(end - start)) / REACH_SPEED / CONTROL_PERIOD))
     s = np.linspace(0.0, 1.0, steps, endpoint=False)[:, None]
     path: NDArray[np.float64] = start + (end - start) * (10 * s**3 - 15 * s**4 + 6 * s**5)
     return path
@@ -64,10 +64,10 @@ def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) ->
     times = stroke.times - stroke.times[0]
     length = float(paths.arc_lengths(points)[-1])
     duration = float(np.clip(times[-1], length / DRAWING_SPEED[1], length / DRAWING_SPEED[0]))
-    ticks = np.linspace(0.0, times[-1], max(2, round(duration / CONTROL_TIME) + 1))
+    ticks = np.linspace(0.0, times[-1], max(2, round(duration / CONTROL_PERIOD) + 1))
     return paths.interpolate(ticks, times, points)
 
 
 def sample_times(count: int) -> NDArray[np.float64]:
     """Return when a hand path was sampled, every 20 ms from 0, shape (T,), s."""
-    return np.arange(count, dtype=np.float64) * CONTROL_TIME
+    return np.arange(count, dtype=np.float64) * CONTROL_PERIOD

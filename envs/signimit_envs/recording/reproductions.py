@@ -8,14 +8,16 @@ from dataclasses import asdict
 
 import gymnasium as gym
 import numpy as np
+from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError
 from signimit.learning import ImitationModel
+from signimit.policies import CONTROL_PERIOD, run_policy
+from signimit.policies.closed_loop import count_steps
 from signimit.teaching.languages import PAPER_LANGUAGE, Language
-from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.recorder import EpisodeRecorder
-from signimit_envs.sessions.reproduction import hand_action, hand_velocities
+from signimit_envs.sessions.reproduction import hand_action
 from signimit_envs.sessions.session import Command
 
 ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
@@ -37,20 +39,20 @@ def record_reproductions(
     """
     if not 0 < seconds <= 600.0:  # a comparison with NaN is false
         raise InvalidInputError("seconds", "above 0, at most 600", f"{seconds}")
-    steps = max(1, round(seconds * CONTROL_RATE))
+    steps = max(1, count_steps(seconds))
     env = gym.make(ENV_ID, max_episode_steps=steps, language=asdict(language))
     with closing(EpisodeRecorder(env)) as recorder:
         for command in commands:
-            _obey(model, command, recorder)
+            _obey(model, command, steps * CONTROL_PERIOD, recorder)
         return recorder.recording
 
 
-def _obey(model: ImitationModel, command: Command, env: EpisodeRecorder) -> None:
+def _obey(model: ImitationModel, command: Command, seconds: float, env: EpisodeRecorder) -> None:
     options = {**command.request._asdict(), **command.scene._asdict(), "signs": command.signs}
     observation, _ = env.reset(options=options)
-    move = hand_velocities(model.respond(command.signs, command.scene.objects).policy)
-    over = False
-    while not over:
-        action = hand_action(move(observation["hand"])).astype(np.float32)
-        observation, _, terminated, truncated, _ = env.step(action)
-        over = terminated or truncated
+
+    def step_arm(hand: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        seen, _, terminated, truncated, _ = env.step(hand_action(velocity).astype(np.float32))
+        return None if terminated or truncated else seen["hand"]
+
+    run_policy(model.respond(command.signs, command.scene.objects).policy, observation["hand"], seconds, step_arm)

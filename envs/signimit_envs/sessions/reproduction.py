@@ -9,11 +9,9 @@ import gymnasium as gym
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit import InvalidInputError
+from signimit import InvalidInputError, Policy, run_policy
 from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED
 from signimit_envs.tabletop.env import TabletopEnv
-
-Policy = Callable[[NDArray[np.float64]], ArrayLike]
 
 
 class HandTrack(NamedTuple):
@@ -30,7 +28,7 @@ class HandTrack(NamedTuple):
 
 def reproduce(
     env: gym.Env[Any, Any],
-    policy: Policy,
+    policy: Policy | Callable[[NDArray[np.float64]], ArrayLike],
     objects: ArrayLike,
     hand: ArrayLike,
     seconds: float,
@@ -41,8 +39,8 @@ def reproduce(
     Args:
         env: ``signimit/TabletopHand-v0``, or another with ``control="hand"``, wrapped or not; it is reset, and not
             closed.
-        policy: Hand position (2,), m, to hand velocity (2,), m/s. One that keeps a state has ``start() -> state`` and
-            ``step(state, hand) -> (state, velocity)``, and these are used.
+        policy: A policy, or a function of the hand's position (2,), m, that returns its velocity (2,), m/s. Of an
+            object that has ``start() -> state`` and ``step(state, hand) -> (state, velocity)`` these are used.
         objects: Where to put the objects, shape (O, 2), m.
         hand: Where to put the hand, shape (2,), m.
         seconds: How long to go on; cut short by a physics error only.
@@ -57,20 +55,22 @@ def reproduce(
         found = f"control={arm.control!r}" if isinstance(arm, TabletopEnv) else type(arm).__name__
         raise InvalidInputError("environment", "signimit/TabletopHand-v0, or control='hand'", found)
     arm.reset(options={"objects": objects, "hand": hand})
-    move = hand_velocities(policy)
-    path, commanded = [arm.hand], []
-    for _ in range(round(seconds * CONTROL_RATE)):
-        if each_step is not None:
-            each_step()
-        action = hand_action(move(path[-1]))
-        terminated = arm.step(action)[2]
-        if terminated:
-            break
-        commanded.append(path[-1] + action * (MAX_HAND_SPEED / CONTROL_RATE))
-        path.append(arm.hand)
     if each_step is not None:
         each_step()
-    return HandTrack(np.array(path), np.array(commanded).reshape(-1, 2))
+    commanded: list[NDArray[np.float64]] = []
+
+    def step_arm(here: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        action = hand_action(velocity)
+        terminated = arm.step(action)[2]
+        if each_step is not None:
+            each_step()
+        if terminated:
+            return None
+        commanded.append(here + action * (MAX_HAND_SPEED / CONTROL_RATE))
+        return arm.hand
+
+    path = run_policy(policy, arm.hand, seconds, step_arm)
+    return HandTrack(path, np.array(commanded).reshape(-1, 2))
 
 
 def hand_action(velocity: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -85,21 +85,3 @@ def hand_action(velocity: NDArray[np.float64]) -> NDArray[np.float64]:
         raise InvalidInputError("policy", "velocities along x and y", f"shape {velocity.shape}")
     action: NDArray[np.float64] = velocity / np.maximum(MAX_HAND_SPEED, np.abs(velocity).max(axis=-1, keepdims=True))
     return action
-
-
-def hand_velocities(policy: Any) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:
-    """Give policies with and without a state one face: hand (2,), m, to velocity (2,), m/s, from one call to the next.
-
-    Args:
-        policy: One that keeps a state has ``start() -> state`` and ``step(state, hand) -> (state, velocity)``.
-    """
-    if not (hasattr(policy, "start") and hasattr(policy, "step")):
-        return lambda hand: np.asarray(policy(hand), dtype=np.float64)
-    state = policy.start()
-
-    def move(hand: NDArray[np.float64]) -> NDArray[np.float64]:
-        nonlocal state
-        state, velocity = policy.step(state, hand)
-        return np.asarray(velocity, dtype=np.float64)
-
-    return move

@@ -13,11 +13,9 @@ from signimit.evaluation import performed
 from signimit.grouping import group_movements
 from signimit.intervals import wilson_interval
 from signimit.learning import ImitationModel
-from signimit.policies.frames import PlacedPolicy
+from signimit.policies import run_policy
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit.teaching.composition import GroundTruth
-from signimit_envs.arm.scene import CONTROL_RATE
-from signimit_envs.sessions.reproduction import hand_velocities
 from signimit_envs.sessions.session import Reproduction, SessionResult
 
 RESTARTS = 51  # the paper's own run and 50 more
@@ -143,14 +141,6 @@ def failing_stage(result: SessionResult, reproduction: Reproduction) -> str:
     if (int(meant), reproduction.answer.focus) != command.request:
         return "sign"
     policy = model.respond(command.signs, command.scene.objects).policy
-    path = ideal_path(policy, command.scene.hand, session.plan.seconds)
-    ideal = performed(path, command.scene.objects, session.truth.templates)
+    ideal_path = run_policy(policy, command.scene.hand, session.plan.seconds)
+    ideal = performed(ideal_path, command.scene.objects, session.truth.templates)
     return "physics" if (ideal.movement, ideal.focus) == command.request else "policy"
-
-
-def ideal_path(policy: PlacedPolicy, hand: NDArray[np.float64], seconds: float) -> NDArray[np.float64]:
-    """Move a point, not an arm, by a policy at the environments' control rate, shape (T, 2), m."""
-    path, move = [hand], hand_velocities(policy)
-    for _ in range(round(seconds * CONTROL_RATE)):
-        path.append(path[-1] + move(path[-1]) / CONTROL_RATE)
-    return np.array(path)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.entries.imitator import certain_reading
-from signimit.benchmark.protocol import Kit, Observation
+from signimit.benchmark.protocol import Kit
 from signimit.demonstrations import DemonstrationSet
 from signimit.grouping import canonical_labels
 from signimit.inference import WordOrder
 from signimit.learners.base import Reading, Understanding
 from signimit.learners.joint.drawing_distance import make_drawing
 from signimit.policies import make_policy
-from signimit.policies.frames import on_table
 
 
-class Chance:
+class Chance(Follower):
     """Guesses everything, and moves well.
 
     It takes as many movements as objects for granted, for want of a better number. What it draws is a random
@@ -52,8 +51,4 @@ class Chance:
         self.reading = certain_reading(movement, focus, movements, len(objects))
         shown = self._demonstrations[int(self._rng.choice(np.flatnonzero(labels == movement)))]
         policy = make_policy([shown.hand - make_drawing(shown.hand, shown.times).centre], [shown.times])
-        self._hand = Follower(on_table(policy, objects[focus]))
-
-    def act(self, observation: Observation) -> ArrayLike:
-        """Follow the drawing."""
-        return self._hand.act(observation)
+        self.follow(policy.at(objects[focus]))

@@ -1,26 +1,22 @@
-"""A hand that follows a policy; policies with and without a state have one face here."""
+"""The part that entries share which follow a policy: stepping it, once a control period."""
 
 from __future__ import annotations
 
-from typing import Any
-
+import numpy as np
 from numpy.typing import NDArray
 
 from signimit.benchmark.protocol import Observation
-from signimit.policies.frames import PlacedPolicy, StatefulPlacedPolicy
+from signimit.policies import Policy
 
 
 class Follower:
-    """Follows one policy from the moment it is made."""
+    """Base of entries that answer a command with a policy in the table frame."""
 
-    def __init__(self, policy: PlacedPolicy) -> None:
-        """Begin to follow."""
-        self._policy = policy
-        self._state: Any = policy.start() if isinstance(policy, StatefulPlacedPolicy) else None
+    def follow(self, policy: Policy) -> None:
+        """Begin to follow a policy."""
+        self._policy, self._state = policy, policy.start()
 
-    def act(self, observation: Observation) -> NDArray[Any]:
-        """Return the velocity for the next control period, shape (2,), m/s."""
-        if not isinstance(self._policy, StatefulPlacedPolicy):
-            return self._policy(observation.hand)
+    def act(self, observation: Observation) -> NDArray[np.float64]:
+        """Return the policy's velocity for the next control period, shape (2,), m/s."""
         self._state, velocity = self._policy.step(self._state, observation.hand)
         return velocity

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from signimit.benchmark.entries.following import Follower
-from signimit.benchmark.protocol import Entrant, Kit, Observation
+from signimit.benchmark.protocol import Entrant, Kit
 from signimit.demonstrations import DemonstrationSet
 from signimit.learners.base import Reading, Understanding
 from signimit.learning import ImitationModel, learn
 from signimit.policies import DEFAULT_POLICY
 
 
-class Imitator:
+class Imitator(Follower):
     """Obeys as an `ImitationModel` says.
 
     Attributes:
@@ -39,11 +39,7 @@ class Imitator:
         """Read the utterance."""
         response = self._model.respond(signs, objects)
         self.reading = certain_reading(response.movement, response.focus, len(self._model.movements), len(objects))
-        self._hand = Follower(response.policy)
-
-    def act(self, observation: Observation) -> ArrayLike:
-        """Follow the policy."""
-        return self._hand.act(observation)
+        self.follow(response.policy)
 
 
 def certain_reading(movement: int, focus: int, movements: int, objects: int) -> Reading:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from signimit.benchmark.entries.following import Follower
 from signimit.benchmark.entries.imitator import Imitator, certain_reading
-from signimit.benchmark.protocol import Kit, Observation, Truth
+from signimit.benchmark.protocol import Kit, Truth
 from signimit.demonstrations import DemonstrationSet
 from signimit.grouping import canonical_labels, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
@@ -15,7 +15,6 @@ from signimit.learners.base import Reading, Understanding
 from signimit.learners.paper import PaperEvidence
 from signimit.learning import ImitationModel
 from signimit.policies import DEFAULT_POLICY
-from signimit.policies.frames import on_table
 from signimit.signs import SignSpace
 from signimit.similarity import policy_distances, policy_similarities
 
@@ -55,7 +54,7 @@ def _model(kit: Kit, demonstrations: DemonstrationSet, labels: Labels, focus: La
     return ImitationModel(demonstrations, understanding, METHOD, DEFAULT_POLICY, kit.prototypes)
 
 
-class AllKnowing:
+class AllKnowing(Follower):
     """Knows what was shown and what is asked for; only its policy can fail.
 
     Attributes:
@@ -85,8 +84,4 @@ class AllKnowing:
         asked = next(self._requests)
         movement = self._number[asked.movement]
         self.reading = certain_reading(movement, asked.focus, len(self._number), len(objects))
-        self._hand = Follower(on_table(self._model.policy(movement), objects[asked.focus]))
-
-    def act(self, observation: Observation) -> ArrayLike:
-        """Follow the policy."""
-        return self._hand.act(observation)
+        self.follow(self._model.policy(movement).at(objects[asked.focus]))

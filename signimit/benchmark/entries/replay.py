@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from signimit.benchmark.entries.following import Follower
-from signimit.benchmark.protocol import Observation
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.learners.joint.drawing_distance import make_drawing
 from signimit.policies import make_policy
-from signimit.policies.frames import on_table
 from signimit.signs import normalised_sign, pairwise_dtw
 
 Place = NDArray[np.float64]
 
 
-class Replay:
+class Replay(Follower):
     """Draws again, at the same place on the table, what was shown when the most similar utterance was made.
 
     The likeness of two utterances is the sum of the dynamic time warping distances of their words. The path is replayed
@@ -37,11 +35,7 @@ class Replay:
         ]
         shown = self._demonstrations[int(np.sum(gaps, axis=0).argmin())]
         there, here = self._origins(shown, objects)
-        self._hand = Follower(on_table(make_policy([shown.hand - there], [shown.times]), here))
-
-    def act(self, observation: Observation) -> ArrayLike:
-        """Follow the demonstrated path."""
-        return self._hand.act(observation)
+        self.follow(make_policy([shown.hand - there], [shown.times]).at(here))
 
     def _origins(self, shown: Demonstration, objects: NDArray[np.float64]) -> tuple[Place, Place]:
         """Return what the path was relative to when it was shown, and what it shall be relative to now."""

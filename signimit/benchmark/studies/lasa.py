@@ -16,10 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from scipy.io import loadmat
 
-from signimit.benchmark.studies.path_quality import move_hands
 from signimit.exceptions import FileFormatError, InvalidInputError, MissingDependencyError
 from signimit.paths import interpolate, step_lengths
 from signimit.policies.base import Array, Policy, check_demonstrations
+from signimit.policies.closed_loop import run_policy
 from signimit.signs import dtw_distance
 
 METRES = 1e-3  # the set is in millimetres
@@ -101,7 +101,7 @@ def find_lasa(folder: str | os.PathLike[str] | None = None) -> Iterator[LasaShap
 
 def reproduce(policy: Policy, path: Array, times: Array) -> Array:
     """Move a hand from where a demonstration began, shape (n, 2), m, until it has arrived or is late."""
-    hand = move_hands(policy, path[:1], LONGER * float(times[-1] - times[0]))[:, 0]
+    hand = run_policy(policy, path[:1], LONGER * float(times[-1] - times[0]))[:, 0]
     moves = np.flatnonzero(step_lengths(hand) > 1e-6)
     return hand[: moves[-1] + 2] if len(moves) else hand[:2]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -9,7 +10,8 @@ import numpy as np
 
 from signimit.evaluation import TOLERANCE, make_template, movement_error, settled_part
 from signimit.paths import nearest_distances, nearest_points, resample_path, step_lengths
-from signimit.policies.base import CONTROL_PERIOD, Array, Policy, StatefulPolicy
+from signimit.policies.base import CONTROL_PERIOD, Array
+from signimit.policies.closed_loop import Advance, count_steps, move_exactly
 
 REACHED = 0.15  # half sizes from the drawing at which a detour ends
 FAR = 0.5  # half sizes from the drawing that a detour begins at, at least
@@ -40,28 +42,20 @@ class PathQuality(NamedTuple):
         return self.misfit <= TOLERANCE
 
 
-def move_hands(policy: Policy, hands: Array, seconds: float, shove: Array | None = None) -> Array:
-    """Move hands as the policy says, shape (n + 1, B, 2), m.
+def shove_half_way(shove: Array, seconds: float) -> Advance:
+    """Return how points move that do as they are told, but for one shove half way.
 
     Args:
-        policy: Any kind; one with a state keeps it.
-        hands: Where they start, shape (B, 2), m.
-        seconds: How long.
-        shove: What is added to each hand half way, shape (B, 2), m.
+        shove: What is then added to each hand, shape (B, 2), m.
+        seconds: How long they move in all.
     """
-    steps = round(seconds / CONTROL_PERIOD)
-    path = np.empty((steps + 1, *hands.shape))
-    path[0] = hands
-    state = policy.start() if isinstance(policy, StatefulPolicy) else None
-    for t in range(steps):
-        if isinstance(policy, StatefulPolicy):
-            state, velocity = policy.step(state, path[t])
-        else:
-            velocity = policy(path[t])
-        path[t + 1] = path[t] + CONTROL_PERIOD * velocity
-        if shove is not None and t == steps // 2:
-            path[t + 1] += shove
-    return path
+    period, half_way = itertools.count(), count_steps(seconds) // 2
+
+    def advance(hands: Array, velocities: Array) -> Array:
+        moved = move_exactly(hands, velocities)
+        return moved + shove if next(period) == half_way else moved
+
+    return advance
 
 
 def judge_path(path: Array, loops: Sequence[Array]) -> PathQuality:

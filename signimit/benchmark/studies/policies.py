@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signimit.benchmark.studies.path_quality import arrives_and_stays, back_after_shove, judge_path, move_hands
+from signimit.benchmark.studies.path_quality import arrives_and_stays, back_after_shove, judge_path, shove_half_way
 from signimit.exceptions import InvalidInputError
-from signimit.policies import POLICY_KINDS, make_policy
+from signimit.policies import POLICY_KINDS, make_policy, run_policy
 from signimit.policies.base import Array, Policy
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.composition import Language, compose_loops, compose_path
@@ -123,7 +123,7 @@ def run_study(library: StrokeLibrary, plan: StudyPlan, kinds: Sequence[str] = PO
 
 def try_policy(policy: Policy, lesson: Lesson, plan: StudyPlan, session: int = 0) -> Trial:
     """Move hands by a policy from random places, shove some, and judge all."""
-    path = move_hands(policy, lesson.hands, plan.seconds)
+    path = run_policy(policy, lesson.hands, plan.seconds)
     on_table = (np.abs(path + lesson.focus) < TABLE + 0.02).all(axis=(0, 2)).mean()
     begin = time.perf_counter()
     for hand in lesson.hands:
@@ -136,7 +136,8 @@ def try_policy(policy: Policy, lesson: Lesson, plan: StudyPlan, session: int = 0
     shove = SHOVE * np.column_stack([np.cos(angles), np.sin(angles)])
     conducts = [judge_path(path[:, b], lesson.loops) for b in range(len(lesson.hands))]
     good = np.array([c.draws for c in conducts])
-    shoved = back_after_shove(move_hands(policy, lesson.hands, plan.seconds, shove), lesson.loops)
+    shoved_path = run_policy(policy, lesson.hands, plan.seconds, shove_half_way(shove, plan.seconds))
+    shoved = back_after_shove(shoved_path, lesson.loops)
     means = [_mean(c[i] for c in conducts if c.draws) for i in range(5)]
     back = float(shoved[good].mean()) if good.any() else np.nan
     return trial._replace(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,17 +17,16 @@ from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, StatefulPoli
 
 Shown = Any
 Compose = Callable[..., Shown]
+WHERE = "on the table"
+ALL = [*POLICY_KINDS, *(f"{kind} {WHERE}" for kind in POLICY_KINDS)]
 HANDS = np.random.default_rng(1).uniform(-0.5, 0.5, (40, 2))
 
 
 def drive(policy: Policy, hands: NDArray[np.float64], steps: int) -> NDArray[np.float64]:
     """Move hands as the checks do, shape (steps + 1, B, 2)."""
-    path, state = [hands], policy.start() if isinstance(policy, StatefulPolicy) else None
+    path, state = [hands], policy.start()
     for _ in range(steps):
-        if isinstance(policy, StatefulPolicy):
-            state, velocity = policy.step(state, path[-1])
-        else:
-            velocity = policy(path[-1])
+        state, velocity = policy.step(state, path[-1])
         path.append(path[-1] + 0.02 * velocity)
     return np.array(path)
 
@@ -37,16 +37,21 @@ def learned(shown: Shown, kind: str = DEFAULT_POLICY) -> Policy:
 
 @pytest.fixture(scope="module")
 def policies(shown: Compose) -> dict[str, Policy]:
-    return {kind: learned(shown("triangle up"), kind) for kind in POLICY_KINDS}
+    made = {kind: learned(shown("triangle up"), kind) for kind in POLICY_KINDS}
+    return made | {f"{kind} {WHERE}": policy.at([0.1, -0.2]) for kind, policy in made.items()}
 
 
 def test_the_default_is_one_of_the_kinds_and_keeps_a_state(shown: Compose) -> None:
     policy = make_policy(*shown("circle")[:2])
     assert policy.kind == DEFAULT_POLICY == "path-following"
-    assert isinstance(policy, StatefulPolicy)
+    assert policy.start() is not None
 
 
-@pytest.mark.parametrize("kind", POLICY_KINDS)
+def test_the_name_of_policies_with_a_state_still_is_one_of_all_that_have_start_and_step() -> None:
+    assert StatefulPolicy is Policy
+
+
+@pytest.mark.parametrize("kind", ALL)
 def test_shape_out_is_shape_in(kind: str, policies: dict[str, Policy]) -> None:
     policy = policies[kind]
     assert policy([0.1, 0.0]).shape == (2,)
@@ -54,25 +59,54 @@ def test_shape_out_is_shape_in(kind: str, policies: dict[str, Policy]) -> None:
     assert policy(np.zeros((0, 2))).shape == (0, 2)
 
 
-@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize("kind", ALL)
 def test_many_hands_move_as_each_alone(kind: str, policies: dict[str, Policy]) -> None:
     together = policies[kind](HANDS)
     np.testing.assert_allclose(together, [policies[kind](hand) for hand in HANDS], atol=1e-9)
 
 
-@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize("kind", ALL)
 def test_many_hands_step_as_each_alone(kind: str, policies: dict[str, Policy]) -> None:
     together = drive(policies[kind], HANDS[:3], 60)
     alone = np.stack([drive(policies[kind], hand, 60) for hand in HANDS[:3]], axis=1)
     np.testing.assert_allclose(together, alone, atol=1e-9)
 
 
-@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize("kind", ALL)
 def test_velocities_are_finite_from_everywhere(kind: str, policies: dict[str, Policy]) -> None:
     rng = np.random.default_rng(0)
     hands = np.concatenate([rng.uniform(-s, s, (12, 2)) for s in (1e-9, 0.1, 1.0, 900.0)])
     assert np.isfinite(policies[kind](hands)).all()
     assert np.isfinite(drive(policies[kind], hands, 40)).all()
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_the_plain_call_is_made_without_a_state(kind: str, policies: dict[str, Policy]) -> None:
+    policy = policies[kind]
+    before = policy(HANDS)
+    drive(policy, HANDS, 5)
+    np.testing.assert_array_equal(policy(HANDS), before)
+    if policy.start() is None:
+        np.testing.assert_array_equal(policy.step(None, HANDS)[1], before)
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_a_step_taken_twice_is_the_same_and_writes_to_nothing(kind: str, policies: dict[str, Policy]) -> None:
+    policy, hands = policies[kind], HANDS.copy()
+    hands.setflags(write=False)
+    state, _ = policy.step(policy.start(), hands)
+    first, second = policy.step(state, hands), policy.step(state, hands)
+    np.testing.assert_array_equal(first[1], second[1])
+    np.testing.assert_array_equal(policy.step(first[0], hands)[1], policy.step(second[0], hands)[1])
+
+
+@pytest.mark.parametrize("kind", ALL)
+def test_a_pickled_policy_is_the_same_policy(kind: str, policies: dict[str, Policy]) -> None:
+    again = pickle.loads(pickle.dumps(policies[kind]))
+    np.testing.assert_array_equal(again(HANDS), policies[kind](HANDS))
+    np.testing.assert_array_equal(drive(again, HANDS, 20), drive(policies[kind], HANDS, 20))
+    arrays = [value for value in vars(again).values() if isinstance(value, np.ndarray)]
+    assert not any(array.flags.writeable for array in arrays if array.dtype == np.float64)
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
@@ -111,7 +145,7 @@ def test_a_policy_shares_no_memory_with_its_demonstrations_or_its_answers(kind: 
     np.testing.assert_array_equal(policy(HANDS), before)
 
 
-@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize("kind", ALL)
 def test_a_policy_cannot_be_changed(kind: str, policies: dict[str, Policy]) -> None:
     name = next(iter(vars(policies[kind])))
     with pytest.raises(AttributeError):
@@ -134,7 +168,7 @@ def test_short_slow_and_resting_demonstrations_will_do(kind: str) -> None:
         assert np.isfinite(drive(policy, HANDS, 30)).all()
 
 
-@pytest.mark.parametrize("kind", POLICY_KINDS)
+@pytest.mark.parametrize("kind", ALL)
 @pytest.mark.parametrize(
     "hand", [[0.0], [0.0, np.nan], [np.inf, 0.0], [[0.0, 0.0, 0.0]], np.zeros((2, 2, 2)), [1e9, 0.0]]
 )
@@ -146,7 +180,6 @@ def test_a_bad_hand_is_refused(kind: str, hand: Any, policies: dict[str, Policy]
 @pytest.mark.parametrize("kind", ["path-following", "dmp"])
 def test_a_state_belongs_to_hands_of_its_shape(kind: str, policies: dict[str, Policy]) -> None:
     policy = policies[kind]
-    assert isinstance(policy, StatefulPolicy)
     state, _ = policy.step(policy.start(), HANDS[:3])
     with pytest.raises(InvalidInputError, match="state"):
         policy.step(state, HANDS[:4])

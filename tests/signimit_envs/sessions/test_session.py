@@ -14,14 +14,12 @@ from signimit.evaluation import NOTHING
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
 from signimit.learning import learn
-from signimit.policies.frames import PlacedPolicy
 from signimit.teaching.people.casting import Cast, cast_people
 from signimit_envs.sessions.many_sessions import repeats_paper, session_outcome, study_report, study_table
 from signimit_envs.sessions.report import inference_lines, session_report, session_table, truth_text
 from signimit_envs.sessions.scores import (
     Share,
     failing_stage,
-    ideal_path,
     judge_inference,
     obeyed_shares,
     restart_grouping,
@@ -146,20 +144,8 @@ def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult, m
     assert stage(word_order=order) == "word order"
     assert failing_stage(result, failed._replace(answer=answer._replace(focus=(answer.focus + 1) % 3))) == "sign"
     assert failing_stage(result, failed) == "physics"  # a point obeys, so that only the arm is left
-    monkeypatch.setattr("signimit_envs.sessions.scores.ideal_path", lambda policy, hand, seconds: np.zeros((100, 2)))
+    monkeypatch.setattr("signimit_envs.sessions.scores.run_policy", lambda policy, hand, seconds: np.zeros((100, 2)))
     assert failing_stage(result, failed) == "policy"
-
-
-def test_an_ideal_hand_integrates_the_policy() -> None:
-    class East:
-        kind = "east"
-
-        def __call__(self, hand: object) -> np.ndarray:
-            return np.array([0.5, 0.0])
-
-    policy = PlacedPolicy(East(), np.zeros(2))  # type: ignore[arg-type]
-    path = ideal_path(policy, np.array([0.1, 0.2]), 2.0)
-    np.testing.assert_allclose(path[-1], [1.1, 0.2])
 
 
 def test_the_report_is_json_and_says_what_the_table_says(result: SessionResult, report: dict[str, Any]) -> None:

@@ -1,20 +1,17 @@
-"""Policies that move many hands: each is called once for all the hands it moves, wherever its objects are."""
+"""One policy for many hands, each with a policy of its own: one that several hands share is stepped once for them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit import InvalidInputError
-from signimit.policies.frames import PlacedPolicy
-from signimit_envs.sessions.reproduction import hand_velocities
+from signimit import InvalidInputError, PlacedPolicy, Policy
+from signimit.policies import as_policy
 
 Array = NDArray[np.float64]
-Policy = Callable[[Array], ArrayLike]
 
 
 class _Group(NamedTuple):
@@ -23,17 +20,17 @@ class _Group(NamedTuple):
     Attributes:
         members: Their numbers, shape (G,); that of a lone hand twice, since BLAS adds up a single row in another order
             than one of many, and what a hand is told should not depend on the others.
-        move: Hands (G, 2), m, to velocities (G, 2), m/s, table frame.
+        policy: Of hands (G, 2), m, table frame.
     """
 
     members: NDArray[np.intp]
-    move: Callable[[Array], Array]
+    policy: Policy
 
 
-class PolicyBatch:
-    """Hands and their policies, from one control step to the next."""
+class PolicyBatch(Policy):
+    """The policies of many hands as one, of B hands in the table frame; its state has a state for each policy."""
 
-    def __init__(self, policies: Sequence[Policy]) -> None:
+    def __init__(self, policies: Sequence[Policy | Callable[[Array], ArrayLike]]) -> None:
         """Find which hands have the same policy.
 
         Args:
@@ -48,28 +45,35 @@ class PolicyBatch:
                 raise InvalidInputError(f"policies: reproduction {number}", "a policy", type(policy).__name__)
             same = policy.policy if isinstance(policy, PlacedPolicy) else policy
             members.setdefault((type(policy), id(same)), []).append(number)
-        several = [numbers if len(numbers) > 1 else 2 * numbers for numbers in members.values()]
-        self._groups = [_Group(np.array(n), hand_velocities(_merged([policies[i] for i in n]))) for n in several]
-        self._count = len(policies)
+        self._groups, self._count = [], len(policies)
+        for numbers in members.values():
+            several = numbers if len(numbers) > 1 else 2 * numbers
+            self._groups.append(_Group(np.array(several), _shared([policies[number] for number in several])))
 
-    def velocities(self, hands: Array) -> Array:
-        """Return the velocity of each hand, shape (B, 2), m/s, for hands of the same shape, m, table frame.
+    def start(self) -> tuple[Any, ...]:
+        """Return the states before the first step."""
+        return tuple(group.policy.start() for group in self._groups)
+
+    def step(self, state: tuple[Any, ...], hand: ArrayLike) -> tuple[tuple[Any, ...], Array]:
+        """Return the next states and the velocities, shape (B, 2), m/s, of hands of the same shape, m, table frame.
 
         Raises:
             InvalidInputError: If a policy does not give each of its hands a finite velocity.
         """
-        wanted = np.empty((self._count, 2))
-        for group in self._groups:
-            wanted[group.members] = _checked(group.move(hands[group.members]), group)
-        return wanted
+        hands, states, velocities = np.asarray(hand), [], np.empty((self._count, 2))
+        for group, before in zip(self._groups, state, strict=True):
+            after, wanted = group.policy.step(before, hands[group.members])
+            velocities[group.members] = _checked(wanted, group)
+            states.append(after)
+        return tuple(states), velocities
 
 
-def _merged(policies: Sequence[Policy]) -> Policy:
+def _shared(policies: Sequence[Policy | Callable[[Array], ArrayLike]]) -> Policy:
     """Return one policy for hands that have the same, each about an object of its own."""
     first = policies[0]
     if not isinstance(first, PlacedPolicy):
-        return first
-    return replace(first, origin=np.array([policy.origin for policy in policies if isinstance(policy, PlacedPolicy)]))
+        return as_policy(first)
+    return first.at([policy.place for policy in policies if isinstance(policy, PlacedPolicy)])
 
 
 def _checked(velocities: Array, group: _Group) -> Array:

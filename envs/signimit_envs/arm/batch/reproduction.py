@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit import InvalidInputError
+from signimit import InvalidInputError, Policy, run_policy
 from signimit.validation import finite_array, item_list
 from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
 from signimit_envs.arm.batch.physics import ManyArms, QuietLog, compile_arm
-from signimit_envs.arm.batch.policy_batch import Policy, PolicyBatch
+from signimit_envs.arm.batch.policy_batch import PolicyBatch
 from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, WORKSPACE
 from signimit_envs.sessions.reproduction import hand_action
 
@@ -38,7 +38,9 @@ class HandTracks(NamedTuple):
     steps: NDArray[np.int64]
 
 
-def reproduce_many(policies: Sequence[Policy], hands: ArrayLike, seconds: float, threads: int = 0) -> HandTracks:
+def reproduce_many(
+    policies: Sequence[Policy | Callable[[Array], ArrayLike]], hands: ArrayLike, seconds: float, threads: int = 0
+) -> HandTracks:
     """Let policies move many simulated hands, each on a table of its own.
 
     The paths are those of `signimit_envs.reproduce`, which asks mink for one arm at a time, to within 0.5 mm; only a
@@ -58,37 +60,32 @@ def reproduce_many(policies: Sequence[Policy], hands: ArrayLike, seconds: float,
             what is not finite or not one velocity a hand.
     """
     movers = item_list(policies, "policies")
-    starts, steps = _checked_hands(hands, len(movers)), _checked_steps(seconds)
+    starts = _checked_hands(hands, len(movers))
+    if not 0.0 <= seconds <= LONGEST:  # a comparison with NaN is false
+        raise InvalidInputError("seconds", f"0 to {LONGEST:g}", f"{seconds}")
     if threads < 0:
         raise InvalidInputError("threads", "0 or more", f"{threads}")
-    model, flock = compile_arm(), PolicyBatch(movers)
+    model, batch = compile_arm(), PolicyBatch(movers)
     controller = ManyHandsController(model)
     arms = ManyArms(model, controller.postures_at(starts.T)[0], threads)
+    commanded: list[Array] = []
+    joints, steps = [arms.joints], np.zeros(len(movers), dtype=np.int64)
+
+    def step_arms(here: Array, velocities: Array) -> Array:
+        ahead = hand_action(velocities) * (MAX_HAND_SPEED / CONTROL_RATE)
+        commanded.append(here + ahead)
+        moved, sound = arms.simulate(controller.solve(joints[-1], ahead.T, 1.0 / CONTROL_RATE).velocities)
+        steps[sound] += 1
+        joints.append(moved)
+        return np.ascontiguousarray(controller.arm.hands(moved).T)
+
     with QuietLog():
-        return _run(flock, controller, arms, steps)
-
-
-def _run(flock: PolicyBatch, controller: ManyHandsController, arms: ManyArms, steps: int) -> HandTracks:
-    joints = arms.joints
-    tracks = _empty_tracks(joints.shape[1], steps)
-    for step in range(steps + 1):
-        here = np.ascontiguousarray(controller.arm.hands(joints).T)
-        tracks.paths[:, step], tracks.joints[:, step] = here, joints.T
-        if step == steps:
-            break
-        ahead = hand_action(flock.velocities(here)) * (MAX_HAND_SPEED / CONTROL_RATE)
-        tracks.commanded[:, step] = here + ahead
-        joints, sound = arms.simulate(controller.solve(joints, ahead.T, 1.0 / CONTROL_RATE).velocities)
-        tracks.steps[sound] += 1
-    return tracks
-
-
-def _empty_tracks(count: int, steps: int) -> HandTracks:
+        path = run_policy(batch, np.ascontiguousarray(controller.arm.hands(joints[0]).T), seconds, step_arms)
     return HandTracks(
-        paths=np.empty((count, steps + 1, 2)),
-        commanded=np.empty((count, steps, 2)),
-        joints=np.empty((count, steps + 1, 3)),
-        steps=np.zeros(count, dtype=np.int64),
+        paths=np.ascontiguousarray(path.swapaxes(0, 1)),
+        commanded=np.ascontiguousarray(np.reshape(commanded, (-1, len(movers), 2)).swapaxes(0, 1)),
+        joints=np.ascontiguousarray(np.transpose(joints, (2, 0, 1))),
+        steps=steps,
     )
 
 
@@ -100,9 +97,3 @@ def _checked_hands(value: ArrayLike, count: int) -> Array:
         area = f"positions with |x| <= {WORKSPACE[0]:g} m and |y| <= {WORKSPACE[1]:g} m"
         raise InvalidInputError(f"hands: reproduction {outside[0]}", area, f"({x:g}, {y:g})")
     return hands
-
-
-def _checked_steps(seconds: float) -> int:
-    if not 0.0 <= seconds <= LONGEST:  # a comparison with NaN is false
-        raise InvalidInputError("seconds", f"0 to {LONGEST:g}", f"{seconds}")
-    return round(seconds * CONTROL_RATE)

@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from signimit_envs.arm.scene import CONTROL_RATE, WORKSPACE, object_bodies
-from signimit_envs.sessions.reproduction import hand_action, hand_velocities
+from signimit_envs.sessions.reproduction import hand_action
 from signimit_envs.studio.arm.live_state import Array, LiveState, Task, TrackPart
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
@@ -115,6 +115,7 @@ class LiveArm:
         self._session: str | None = None
         self._objects: Array
         self._task: Task | None = None
+        self._policy_state: Any = None
         self._force: ExternalForce | None = None
         self._track: list[tuple[Array, Array, Array]] = []
         self._recorded = 0
@@ -152,7 +153,7 @@ class LiveArm:
             self._end()
             self._trail.clear()
             self._task, self._recorded = task, 0
-            self._move = hand_velocities(task.policy)
+            self._policy_state = task.policy.start()
 
         self._inbox.put(begin)
 
@@ -197,7 +198,8 @@ class LiveArm:
             self._force = self._force.apply(env.model, env.data)
         velocity = np.zeros(2)
         if self._task is not None:
-            velocity = self._move(self._state.hand - self._objects[self._task.focus])
+            hand = self._state.hand - self._objects[self._task.focus]
+            self._policy_state, velocity = self._task.policy.step(self._policy_state, hand)
         observation, _, failed, _, _ = env.step(hand_action(velocity))
         if failed:  # it was put back as it was when the table was set
             self._force = None

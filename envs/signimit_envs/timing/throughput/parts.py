@@ -9,13 +9,14 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit import run_policy
 from signimit.teaching.languages import Request
 from signimit_envs.arm.batch import reproduce_many
 from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
 from signimit_envs.arm.batch.physics import ManyArms, compile_arm
 from signimit_envs.arm.batch.policy_batch import PolicyBatch
 from signimit_envs.arm.scene import CONTROL_RATE, SUBSTEPS
-from signimit_envs.sessions.reproduction import hand_velocities, reproduce
+from signimit_envs.sessions.reproduction import reproduce
 from signimit_envs.tabletop.success import SuccessDetector
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.timing.throughput.work import Work, duration
@@ -87,9 +88,8 @@ def _alone(env: TabletopHandEnv, work: Work, seconds: float) -> Runs:
             judge.watch(hand)
 
     def moving() -> None:
-        move = hand_velocities(policy)
-        for hand in track.path[:-1]:
-            move(hand)
+        recorded = iter(track.path[1:])
+        run_policy(policy, track.path[0], seconds, lambda *_: next(recorded, None))
 
     return {
         WHOLE: lambda: reproduce(env, policy, *scene, seconds),
@@ -117,9 +117,8 @@ def _together(work: Work, seconds: float) -> Runs:
             arms.simulate(velocities)
 
     def moving() -> None:
-        flock = PolicyBatch(work.policies)
-        for here in hands:
-            flock.velocities(here)
+        recorded = iter(hands[1:])
+        run_policy(PolicyBatch(work.policies), hands[0], seconds, lambda *_: next(recorded, None))
 
     return {
         WHOLE: lambda: reproduce_many(work.policies, work.hands, seconds),

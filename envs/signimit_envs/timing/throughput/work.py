@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from signimit import InvalidInputError
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
-from signimit.policies import DEFAULT_POLICY
-from signimit.policies.frames import PlacedPolicy
+from signimit.policies import DEFAULT_POLICY, PlacedPolicy
 from signimit.teaching.people.casting import cast_people
 from signimit_envs.sessions.session import Scene, SessionPlan, compose_session
 

@@ -9,18 +9,14 @@ import pytest
 from numpy.typing import NDArray
 
 import signimit
-from signimit.policies import POLICY_KINDS
-from signimit.policies.frames import PlacedPolicy, on_table
+from signimit.policies import POLICY_KINDS, Policy
 from signimit_envs.arm.batch.policy_batch import PolicyBatch
-from signimit_envs.sessions.reproduction import hand_velocities
 
 Array = NDArray[np.float64]
 
 
-class Counting:
+class Counting(Policy):
     """Moves right, faster with every step; knows how often it was called and with how many hands."""
-
-    kind = "counting"
 
     def __init__(self) -> None:
         self.calls: list[int] = []
@@ -28,13 +24,10 @@ class Counting:
     def __call__(self, hand: Any) -> Array:
         raise AssertionError("a policy with a state is stepped")
 
-    def save(self, path: Any) -> None:
-        raise AssertionError("nobody asked for that")
-
     def start(self) -> int:
         return 0
 
-    def step(self, state: int, hand: Array) -> tuple[int, Array]:
+    def step(self, state: int, hand: Any) -> tuple[int, Array]:
         self.calls.append(len(hand))
         return state + 1, np.stack([np.full(len(hand), state), hand[:, 1]], axis=1)
 
@@ -49,31 +42,30 @@ def learned(kind: str) -> signimit.Policy:
     return signimit.make_policy(loops, [times] * 3, kind=kind)
 
 
+def told_first(policy: Policy, hands: Array) -> Array:
+    return np.asarray(policy.step(policy.start(), hands)[1])
+
+
 def test_a_policy_is_called_once_for_all_its_hands_and_keeps_one_state_for_them() -> None:
     shared, own = Counting(), Counting()
-    flock = PolicyBatch(
-        [on_table(shared, np.array([0.0, 0.1])), on_table(own, np.zeros(2)), on_table(shared, np.zeros(2))]
-    )
+    batch = PolicyBatch([shared.at([0.0, 0.1]), own.at([0.0, 0.0]), shared.at([0.0, 0.0])])
     hands = np.array([[0.0, 0.5], [0.0, 0.6], [0.0, 0.7]])
-    np.testing.assert_allclose(flock.velocities(hands), [[0, 0.4], [0, 0.6], [0, 0.7]])
-    np.testing.assert_allclose(flock.velocities(hands), [[1, 0.4], [1, 0.6], [1, 0.7]])
+    state, velocities = batch.step(batch.start(), hands)
+    np.testing.assert_allclose(velocities, np.array([[0, 0.4], [0, 0.6], [0, 0.7]]))
+    np.testing.assert_allclose(batch.step(state, hands)[1], np.array([[1, 0.4], [1, 0.6], [1, 0.7]]))
     assert shared.calls == [2, 2]
     assert len(own.calls) == 2
 
 
-def test_a_policy_that_is_put_on_the_table_without_its_state_is_called_without_it() -> None:
-    class Still(Counting):
-        def __call__(self, hand: Any) -> Array:
-            return -np.asarray(hand)
-
-    still = Still()
-    flock = PolicyBatch([PlacedPolicy(still, np.zeros(2)), on_table(still, np.zeros(2))])
-    np.testing.assert_allclose(flock.velocities(np.array([[1.0, 2.0], [3.0, 4.0]])), [[-1, -2], [0, 4]])
+def test_a_policy_is_another_where_it_is_not_placed() -> None:
+    shared = Counting()
+    batch = PolicyBatch([shared, shared.at([0.0, 1.0])])
+    np.testing.assert_allclose(told_first(batch, np.array([[1.0, 2.0], [3.0, 4.0]])), np.array([[0, 2], [0, 3]]))
 
 
 def test_a_function_of_hands_on_the_table_is_a_policy() -> None:
-    flock = PolicyBatch([lambda hand: 2 * hand, lambda hand: -hand])
-    np.testing.assert_allclose(flock.velocities(np.array([[1.0, 2.0], [3.0, 4.0]])), [[2, 4], [-3, -4]])
+    batch = PolicyBatch([lambda hand: 2 * hand, lambda hand: -hand])
+    np.testing.assert_allclose(told_first(batch, np.array([[1.0, 2.0], [3.0, 4.0]])), np.array([[2, 4], [-3, -4]]))
 
 
 @pytest.mark.parametrize("kind", POLICY_KINDS)
@@ -82,8 +74,12 @@ def test_a_hand_is_told_the_same_whoever_else_asks(kind: str) -> None:
     places, hands = rng.uniform(-0.2, 0.2, (40, 2)), rng.uniform(-0.3, 0.3, (5, 40, 2))
 
     def told(numbers: Any) -> Array:
-        flock = PolicyBatch([on_table(policy, places[n]) for n in numbers])
-        return np.array([flock.velocities(now[numbers]) for now in hands])
+        batch = PolicyBatch([policy.at(places[n]) for n in numbers])
+        state, velocities = batch.start(), []
+        for now in hands:
+            state, wanted = batch.step(state, now[numbers])
+            velocities.append(wanted)
+        return np.array(velocities)
 
     together = told(range(40))
     for numbers in ([11], [39], [8, 3], list(range(39, -1, -1)), list(range(0, 40, 3))):
@@ -94,6 +90,6 @@ def test_a_hand_is_told_the_same_whoever_else_asks(kind: str) -> None:
 def test_hands_are_told_what_their_policy_tells_them_one_by_one(kind: str) -> None:
     rng, policy = np.random.default_rng(2), learned(kind)
     places, hands = rng.uniform(-0.2, 0.2, (10, 2)), rng.uniform(-0.3, 0.3, (10, 2))
-    policies = [on_table(policy, place) for place in places]
-    alone = [hand_velocities(p)(hand) for p, hand in zip(policies, hands, strict=True)]
-    np.testing.assert_allclose(PolicyBatch(policies).velocities(hands), alone, atol=1e-12)
+    policies = [policy.at(place) for place in places]
+    alone = [told_first(p, hand) for p, hand in zip(policies, hands, strict=True)]
+    np.testing.assert_allclose(told_first(PolicyBatch(policies), hands), alone, atol=1e-12)

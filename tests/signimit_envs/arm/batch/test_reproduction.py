@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 import signimit
 from signimit.evaluation import performed
 from signimit.learning import learn
-from signimit.policies.frames import PlacedPolicy
+from signimit.policies import PlacedPolicy
 from signimit.teaching.people.casting import cast_people
 from signimit_envs import TabletopHandEnv, reproduce
 from signimit_envs.arm.batch import HandTracks, reproduce_many

@@ -36,7 +36,7 @@ def measured(work: Work) -> Throughput:
 def test_there_is_as_much_work_as_asked_for_each_in_its_own_scene(work: Work) -> None:
     assert len(work.policies) == len(work.scenes) == 12
     assert len({hand.tobytes() for hand in work.hands}) == 12
-    assert len({policy.origin.tobytes() for policy in work.policies}) == 12
+    assert len({policy.place.tobytes() for policy in work.policies}) == 12
 
 
 def test_the_same_seed_is_the_same_work(work: Work) -> None:
