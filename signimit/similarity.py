@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.acceleration import kernels_for
+from signimit.acceleration import find_twin
 from signimit.exceptions import InvalidInputError
 from signimit.paths import nearest_points
 from signimit.validation import finite_array, item_list, moving_points
@@ -72,13 +72,11 @@ def policy_distances(paths: Sequence[ArrayLike], objects: ArrayLike) -> NDArray[
     if not places.size:
         raise InvalidInputError("objects", "at least one in each demonstration", "none")
     pairs = (places.shape[1] * sum(len(d.angles) for d in directed)) ** 2
-    kernels = kernels_for(_SECONDS * pairs)
-    if kernels is None:
+    twin = find_twin("signimit.similarity_numba", _SECONDS * pairs)
+    if twin is None:
         one_way = _one_way_distances(directed, places)
     else:
-        one_way = kernels.one_way_policy_distances(
-            [d.positions for d in directed], [d.angles for d in directed], places
-        )
+        one_way = twin.one_way_policy_distances([d.positions for d in directed], [d.angles for d in directed], places)
     return np.minimum(one_way, one_way.transpose(1, 0, 3, 2))
 
 

@@ -1,6 +1,6 @@
 """Compiled and plain distances agree, and nothing is imported before it pays."""
 
-import importlib
+import math
 import subprocess
 import sys
 
@@ -41,13 +41,11 @@ def traces(count: int, seed: int, frames: int) -> tuple[list[Drawing], Array]:
 
 @pytest.fixture
 def always(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
     monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
 
 
 @pytest.mark.parametrize("shift", [0.0, 50.0])
 def test_compiled_policy_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
-    pytest.importorskip("numba")
     paths, objects = loops(7, 0)
     paths, objects = [path + shift for path in paths], objects + shift
     plain = policy_distances(paths, objects)
@@ -62,7 +60,6 @@ def test_compiled_policy_distances_are_the_plain_ones(monkeypatch: pytest.Monkey
 def test_compiled_drawing_distances_are_the_plain_ones(
     monkeypatch: pytest.MonkeyPatch, count: int, frames: int
 ) -> None:
-    pytest.importorskip("numba")
     drawings, objects = traces(count, 0, frames)
     plain = compare_drawings(drawings, objects)
     monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
@@ -75,7 +72,6 @@ def test_compiled_drawing_distances_are_the_plain_ones(
 
 @pytest.mark.parametrize("count", [1, 2, 16, 17, 35])
 def test_compiled_sign_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPatch, count: int) -> None:
-    pytest.importorskip("numba")
     rng = np.random.default_rng(count)
     features = sign_features([rng.normal(size=(9, 2)).cumsum(axis=0) for _ in range(count)])
     plain = sign_distances(features)
@@ -86,7 +82,6 @@ def test_compiled_sign_distances_are_the_plain_ones(monkeypatch: pytest.MonkeyPa
 
 
 def test_compiled_and_plain_distances_are_understood_alike(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
     demonstrations = compose_many(18, 4)
     plain = learn(demonstrations)
     monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
@@ -113,19 +108,17 @@ def test_of_two_points_at_one_place_the_first_is_the_nearest() -> None:
     assert distance == pytest.approx((np.pi / 2) ** 2 / 3)
 
 
-def test_without_numba_nothing_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_numba_no_twin_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    twin = "signimit.similarity_numba"
+    assert acceleration.find_twin(twin, 1e9) is not None
     monkeypatch.setitem(sys.modules, "numba", None)
-    for name in [name for name in sys.modules if name.startswith("signimit.kernels")]:
-        monkeypatch.delitem(sys.modules, name)
-    acceleration.find_kernels.cache_clear()
-    assert acceleration.find_kernels() is None
-    acceleration.find_kernels.cache_clear()
+    monkeypatch.delitem(sys.modules, twin)
+    assert acceleration.find_twin(twin, 1e9) is None
 
 
-def test_only_the_size_decides_and_small_sets_stay_with_numpy(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(acceleration, "find_kernels", lambda: importlib)
-    assert acceleration.kernels_for(0.99 * acceleration.WORTHWHILE) is None
-    assert acceleration.kernels_for(acceleration.WORTHWHILE) is importlib
+def test_only_the_size_decides_and_small_sets_stay_with_numpy() -> None:
+    assert acceleration.find_twin("math", 0.99 * acceleration.WORTHWHILE) is None
+    assert acceleration.find_twin("math", acceleration.WORTHWHILE) is math
 
 
 def test_importing_signimit_does_not_import_numba() -> None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.acceleration import kernels_for
+from signimit.acceleration import find_twin
 from signimit.learners.joint.reach import find_drawing_start
 from signimit.paths import arc_lengths, box_centre, half_size, interpolate, unit_tangents
 
@@ -78,9 +78,10 @@ def compare_drawings(traces: Sequence[Drawing], objects: NDArray[np.float64]) ->
         Mean distance to the best match, both ways averaged, shape (N, N, O, O), no unit;
         ``[t, k, i, j] == [k, t, j, i]``.
     """
-    kernels = kernels_for(_SECONDS * (len(traces) * objects.shape[1] * SAMPLES) ** 2)
-    if kernels is not None:
-        return np.asarray(kernels.drawing_distances(*_centred(traces, objects)))
+    seconds = _SECONDS * (len(traces) * objects.shape[1] * SAMPLES) ** 2
+    twin = find_twin("signimit.learners.joint.drawing_distance_numba", seconds)
+    if twin is not None:
+        return np.asarray(twin.drawing_distances(*_centred(traces, objects)))
     framed = _framed(traces, objects)
     one_way = np.stack([cross_distances(drawing, framed) for drawing in framed])
     return np.asarray((one_way + one_way.transpose(1, 0, 3, 2)) / 2)

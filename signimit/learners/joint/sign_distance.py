@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import logsumexp, softmax
 
-from signimit.acceleration import kernels_for
+from signimit.acceleration import find_twin
 from signimit.learners.base import Reading, Understanding
 from signimit.paths import resample_path
 from signimit.validation import moving_points
@@ -58,9 +58,9 @@ def _less_slanted(path: NDArray[np.float64]) -> NDArray[np.float64]:
 def sign_distances(features: NDArray[np.float64]) -> NDArray[np.float64]:
     """Compute the distance of all pairs of N signs, shape (N, 32, 4); returns shape (N, N), within 0 and 1.2."""
     count = len(features)
-    kernels = kernels_for(_SECONDS * count**2)
-    if kernels is not None:
-        return np.asarray(kernels.sign_distances(features.astype(np.float32), _LARGEST_GAP))
+    twin = find_twin("signimit.learners.joint.sign_distance_numba", _SECONDS * count**2)
+    if twin is not None:
+        return np.asarray(twin.sign_distances(features.astype(np.float32), _LARGEST_GAP))
     table = np.zeros((count, count))
     rows = max(1, _PAIRS // count)
     for start in range(0, count, rows):

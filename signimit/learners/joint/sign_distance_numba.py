@@ -1,11 +1,11 @@
-"""Compiled distances of signs."""
+"""The distances of `signimit.learners.joint.sign_distance`, compiled by numba; imported when they are worthwhile."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.kernels.compilation import compiled, share_rows
+from signimit.acceleration import compiled, share_rows
 
 _LANES = 16  # signs that are compared with one at once
 

@@ -1,11 +1,13 @@
-"""Compiled distances of drawings."""
+"""The distances of `signimit.learners.joint.drawing_distance`, compiled by numba; imported when they are worthwhile."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.kernels.compilation import FAR, compiled, share_rows
+from signimit.acceleration import compiled, share_rows
+
+_FAR = np.float32(1e30)  # of any squared distance
 
 
 def drawing_distances(shapes: NDArray[np.float32], offsets: NDArray[np.float32]) -> NDArray[np.float64]:
@@ -67,7 +69,7 @@ def _sum_of_best(
     best: NDArray[np.float32],
 ) -> np.float32:
     """Add up, over the columns, the roots of the least gap + there + here + square; eight rows a pass."""
-    best[:] = FAR
+    best[:] = _FAR
     for v in range(0, len(there), 8):
         t0, t1, t2, t3 = there[v], there[v + 1], there[v + 2], there[v + 3]
         t4, t5, t6, t7 = there[v + 4], there[v + 5], there[v + 6], there[v + 7]

@@ -1,4 +1,4 @@
-"""Compiled one-way distances of policies."""
+"""The one-way distances of `signimit.similarity`, compiled by numba; imported when they are worthwhile."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.kernels.compilation import FAR, compiled, share_rows
+from signimit.acceleration import compiled, share_rows
 
+_FAR = np.float32(1e30)  # of any squared distance
 _DOUBT = 1e-6  # of the squared extent; nearer than this, single precision cannot tell which of two points is nearest
 
 
@@ -55,14 +56,14 @@ def _policy_row_block(
     for t in range(first, len(objects), step):
         for k in range(len(objects)):
             width = _place_queries(t, k, paths, objects, qx, qy)
-            best[:], second[:] = FAR, FAR
+            best[:], second[:] = _FAR, _FAR
             for v in range(starts[k], starts[k + 1], 2):
                 z = min(v + 1, starts[k + 1] - 1)
                 v0, v1 = np.int32(v), np.int32(z)
                 x0, y0 = np.float32(-2.0 * x[v]), np.float32(-2.0 * y[v])
                 x1, y1 = np.float32(-2.0 * x[z]), np.float32(-2.0 * y[z])
                 z0 = np.float32(x[v] * x[v] + y[v] * y[v])
-                z1 = np.float32(x[z] * x[z] + y[z] * y[z]) if z > v else FAR
+                z1 = np.float32(x[z] * x[z] + y[z] * y[z]) if z > v else _FAR
                 for u in range(width):  # no branches, no calls: eight queries go through at once
                     e0 = qx[u] * x0 + (qy[u] * y0 + z0)
                     e1 = qx[u] * x1 + (qy[u] * y1 + z1)
