@@ -24,7 +24,7 @@ KIND, VERSION = "demonstration set", 1
 
 @dataclass(frozen=True, eq=False)
 class Demonstration:
-    """One exchange between the interactant and the demonstrator.
+    """One exchange between the interactant, who signs, and the demonstrator, who moves (paper, section II-A).
 
     Attributes:
         signs: The utterance, W hand signs in the order they were made, each of shape (T_s, 2), any unit.
@@ -61,7 +61,7 @@ class Demonstration:
 
 @dataclass(frozen=True, eq=False)
 class DemonstrationSet(Sequence[Demonstration]):
-    """Demonstrations of one language: same number of words and of objects throughout.
+    """N demonstrations of one language (paper, section II-A): same number of words and of objects throughout.
 
     Attributes:
         demonstrations: The demonstrations, in the order they were seen.

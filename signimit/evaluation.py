@@ -57,7 +57,7 @@ def make_template(loop: ArrayLike) -> Template:
 
 
 def performed(path: ArrayLike, objects: ArrayLike, templates: Sequence[Sequence[ArrayLike]]) -> Performance:
-    """Say which movement a path performed about which object.
+    """Say which movement a path performed about which object (paper, section III).
 
     The last two thirds of the path are compared with every drawing of every movement about every object; a
     movement's error is the mean of its two best drawings, the smallest error wins.

@@ -38,7 +38,7 @@ def group_movements(
     steps: int = STEPS,
     rng: np.random.Generator | int | None = 0,
 ) -> Grouping:
-    """Group demonstrations by movement with Algorithm 1.
+    """Group demonstrations by movement with Algorithm 1 (paper, section II-C).
 
     Departure: as printed, m <- m_k ξ + (1 - m_k) m does not break the symmetry between groups and every membership
     stays near 1/N. The update that does what the text says ("a positive push increases") is multiplicative,

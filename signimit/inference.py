@@ -25,7 +25,7 @@ class WordOrder(NamedTuple):
 
 
 def infer_focus(distances: ArrayLike, labels: ArrayLike) -> NDArray[np.int64]:
-    """Find the object that each demonstration was about.
+    """Find the object that each demonstration was about (paper, section II-C).
 
     "The coordinate system in which a trajectory is the most similar to the other trajectories of the same movement":
     the frame i with the largest mean over k of max_j γ_{t;k;i;j}. A demonstration alone in its group is compared with

@@ -1,4 +1,4 @@
-"""Learn from demonstrations, and answer new utterances (paper, section II)."""
+"""The model of a session: learned from demonstrations, it answers utterances (paper, section II)."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from signimit.validation import finite_array, item_list, make_generator, moving_
 
 
 class Movement(NamedTuple):
-    """A movement is its members.
+    """A movement that was found: the demonstrations that show it, and their paths seen from their objects.
 
     Attributes:
         members: Numbers of the demonstrations that show it.
@@ -39,7 +39,7 @@ class Movement(NamedTuple):
 
 
 class Response(NamedTuple):
-    """An answer to an utterance.
+    """The model's answer to a command.
 
     Attributes:
         movement: Number of the movement that was asked for, an index of ``model.movements``.
@@ -54,14 +54,19 @@ class Response(NamedTuple):
     policy: PlacedPolicy
     confidence: float
 
+    @property
+    def place(self) -> NDArray[np.float64]:
+        """The place that was asked for, shape (2,), m, table frame: where the object of the focus is."""
+        return self.policy.place
+
 
 @dataclass(frozen=True, eq=False)
 class ImitationModel:
-    """What an imitator has understood; made by `learn`, immutable.
+    """What was learned from demonstrations (paper, section II); made by `learn`, immutable, and saved in files.
 
     Attributes:
-        demonstrations: What it has seen.
-        understanding: What it has inferred.
+        demonstrations: What was seen.
+        understanding: What was inferred.
         method: Name of the learner.
         policy_kind: Kind of policy that its responses use.
         prototypes: Prototype signs, if the method was given any.
@@ -169,7 +174,7 @@ class ImitationModel:
         return self._policies[movement]
 
     def observe(self, demonstration: Demonstration) -> Self:
-        """Return a model that has seen one demonstration more; N distances are measured, not N² as by `learn`.
+        """Return a model of one demonstration more; N distances are measured, not N² as by `learn`.
 
         Policies that were made already are kept for movements whose demonstrations and foci have not changed.
 
@@ -187,7 +192,7 @@ class ImitationModel:
         return later
 
     def _shown(self, movement: int) -> tuple[tuple[int, int], ...]:
-        """All that a policy is made of: the demonstrations of a movement, each with its focus."""
+        """Return all that a policy is made of: the demonstrations of a movement, each with its focus."""
         return tuple((t, int(self.focus[t])) for t in self.movements[movement].members)
 
     def most_informative(self, scenes: ArrayLike) -> Query:
@@ -243,10 +248,10 @@ def learn(
     policy: str = DEFAULT_POLICY,
     rng: np.random.Generator | int | None = 0,
 ) -> ImitationModel:
-    """Understand demonstrations: movements, foci, word order and the meaning of signs.
+    """Understand demonstrations: movements, foci, word order and the meaning of signs (paper, section II).
 
     Args:
-        demonstrations: What was seen, and all that may be used.
+        demonstrations: What was seen, N; nothing else is used.
         prototypes: Strokes that span the paper's sign space; the methods ``"paper"`` and ``"paper-literal"`` need them.
         method: Name of a learner; ``signimit.learners.LEARNERS`` has them.
         policy: Kind of policy for the responses; ``signimit.policies.POLICY_KINDS`` has them.

@@ -18,7 +18,7 @@ _BLOCK = 2**19  # local costs worked on at once, 4 MB
 
 
 def dtw_distance(a: ArrayLike, b: ArrayLike) -> float:
-    """Compute the dynamic-time-warping distance of two strokes.
+    """Compute the dynamic-time-warping distance of two strokes (paper, section II-A).
 
     Convention: Euclidean distance as local cost, steps (1, 0), (0, 1), (1, 1) of equal weight, the sum along the
     cheapest alignment, neither squared nor divided by its length, no window.
@@ -114,7 +114,7 @@ def prototype_points(prototypes: Sequence[Stroke | ArrayLike]) -> tuple[NDArray[
 
 @dataclass(frozen=True, eq=False)
 class SignSpace:
-    """The space whose coordinates are similarities to a few prototype signs.
+    """The space whose coordinates are similarities to a few prototype signs (paper, section II-A).
 
     Attributes:
         prototypes: Normalised prototype strokes, shape (P, 64, 2).

@@ -123,7 +123,7 @@ def check_distances(distances: ArrayLike) -> NDArray[np.float64]:
 
 
 def policy_similarities(distances: ArrayLike) -> NDArray[np.float64]:
-    """Compute γ_{t;k;i;j} = 1 / Δ_{t;k;i;j}, shape (N, N, O, O), 1/rad².
+    """Compute γ_{t;k;i;j} = 1 / Δ_{t;k;i;j}, shape (N, N, O, O), 1/rad² (paper, section II-B).
 
     Departure: Δ is clamped at 1e-6 rad² so that γ stays finite where two demonstrations are the same.
 
@@ -134,7 +134,7 @@ def policy_similarities(distances: ArrayLike) -> NDArray[np.float64]:
 
 
 def maximum_similarities(distances: ArrayLike) -> NDArray[np.float64]:
-    """Compute γ_{t;k} = max_{i,j} γ_{t;k;i;j}, shape (N, N), 1/rad².
+    """Compute γ_{t;k} = max_{i,j} γ_{t;k;i;j}, shape (N, N), 1/rad² (paper, section II-B).
 
     Departure: the paper leaves γ_{t;t} undefined; it is 0, as in its figures 5 and 6.
 

@@ -38,7 +38,7 @@ StatefulPolicy = Policy  # its name in 0.1.0, when only some kinds had `start` a
 
 
 def make_policy(paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: str = DEFAULT_POLICY) -> Policy:
-    """Learn a policy from demonstrations of one movement, each seen from the object it was about.
+    """Learn a policy from demonstrations of one movement, seen from the object each was about (paper, section II-E).
 
     Args:
         paths: Hand positions, each of shape (T, 2), m, origin at the object.

@@ -1,1 +1,1 @@
-"""The simulated arm: scene, constants, and differential inverse kinematics."""
+"""The simulated arm: scene, constants, and differential inverse kinematics (paper, section II-F)."""
