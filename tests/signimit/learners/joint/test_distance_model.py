@@ -60,7 +60,7 @@ def test_ratios_are_those_of_the_densities(model: DistanceModel, mean: float, se
     other = (1 - model.akin_share) * norm.pdf(logs, model.other_mean, model.other_spread) + model.akin_share * akin
     odd, chance = model.odd_share, model.chance_share
     expected = np.log((1 - odd) * equal + odd * other) - np.log((1 - chance) * other + chance * equal)
-    np.testing.assert_allclose(model.log_ratios(distances, mean), expected, atol=2e-5)  # the table between its entries
+    np.testing.assert_allclose(model.log_ratios(distances, mean), expected, atol=1e-5)
 
 
 def test_the_scale_of_a_session_lies_between_what_was_expected_and_what_was_seen() -> None:
