@@ -157,7 +157,7 @@ shift
 if [ "$what" = test ]; then
     ensure_environment test
     cd "$root"
-    exec "$venv/bin/python" -m pytest "$@"
+    exec "$venv/bin/python" -m pytest -n auto "$@" # two processes, see tests/conftest.py; -n 0: one
 fi
 what=$(printf '%s' "$what" | tr - _)
 case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
