@@ -45,7 +45,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield where
 
 
-@pytest.fixture(scope="module")  # while it is open no test in its thread may run an event loop of its own
+@pytest.fixture(scope="package")  # while it is open no test in its thread may run an event loop of its own
 def browser() -> Iterator[Any]:
     if CHROMIUM is None:
         pytest.skip("there is no chromium on this machine")

@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from signimit_envs.studio.limits import LIMITS
-
 expect = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright").expect
 Visit = Callable[..., Any]
 NewSession = Callable[..., str]
@@ -93,28 +91,3 @@ def test_what_is_drawn_for_too_long_is_kept_until_then_said_so_and_taught(
     visitor.see("#teach-count", "Demonstration 1")
     kept = visitor.api(f"sessions/{visitor.session()['id']}/demonstrations/0")["hand"]
     assert kept["times"][-1] == pytest.approx(500, abs=1)
-
-
-DRAW_MUCH = """
-async () => {
-  const { SignPad } = await import("./pad.js");
-  const pad = new SignPad(1, () => {});
-  document.body.append(pad.element); // or it has no size
-  pad.paint = () => {}; // for speed
-  for (let stroke = 0; stroke < 3; stroke += 1) {
-    pad.begin({ x: 0, y: 0, time: 0 });
-    for (let i = 1; i < 6000; i += 1) pad.move({ x: i % 100, y: stroke, time: i / 1000 });
-    pad.end();
-  }
-  return [pad.parts.length, pad.stroke];
-}
-"""
-
-
-def test_strokes_of_a_fast_mouse_are_thinned_until_the_server_takes_them(visit: Visit, new_session: NewSession) -> None:
-    visitor = visit()
-    visitor.open("teach", new_session(visitor))
-    count, stroke = visitor.page.evaluate(DRAW_MUCH)
-    assert count == 3
-    assert 1000 < len(stroke["points"]) == len(stroke["times"]) <= LIMITS.points
-    assert stroke["times"][-1] == pytest.approx(3 * 5.999, abs=1)

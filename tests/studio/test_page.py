@@ -205,7 +205,7 @@ def test_a_session_is_looked_at_exported_imported_and_merged(
     assert opened.value.url.endswith("/figures/4.png")
     opened.value.close()
     page.locator("#replay-choice").select_option("demonstrations/3")
-    visitor.see("#replay-sentence", "LearningResult: movement")
+    visitor.see("#replay-sentence", "Understood: movement")
 
     page.locator("#tab-keep").click()
     with page.expect_download() as download:

@@ -1,4 +1,4 @@
-/** The studio's server. Addresses are relative: the token is in the page's own. */
+/** Client of the studio's HTTP API. Addresses are relative: the token is in the page's own. */
 
 /** A request that was refused; `message` is the server's sentence. */
 export class Refusal extends Error {

@@ -1,6 +1,6 @@
 /** What the robot believes: each demonstration, the movements, the words, their order, its doubts and its wish. */
 
-import { attempt, button, byId, capital, make, percent } from "./dom.js";
+import { attempt, button, byId, capital, make, percent, plural } from "./dom.js";
 import { beliefSentence, movementPicture, objectPatch, scenePicture, signPicture } from "./pictures.js";
 import { demonstration, objectName, store, subscribe } from "./store.js";
 
@@ -134,7 +134,6 @@ function whenSeen(element, work) {
 }
 
 function movementCard(belief) {
-  const count = belief.movements.length;
   const rows = belief.movements.map(({ number, members }) => {
     const word = belief.lexicon.movements.find(({ movement }) => movement === number);
     return make(
@@ -145,7 +144,7 @@ function movementCard(belief) {
       signs(word.strokes, `means movement ${number}`),
     );
   });
-  return card(`${count} movement${count === 1 ? "" : "s"}, and the signs for them`, make("ul", { className: "plain-list" }, ...rows));
+  return card(`${plural(belief.movements.length, "movement")}, and the signs for them`, make("ul", { className: "plain-list" }, ...rows));
 }
 
 function objectCard(belief) {

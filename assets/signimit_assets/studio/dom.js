@@ -1,4 +1,4 @@
-/** Elements, and what is said to the person at the page. Text always goes in as text, never as markup. */
+/** Elements, messages and phrases of the page. Text always goes in as text, never as markup. */
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -29,34 +29,37 @@ export function button(text, onclick, properties = {}) {
 
 export const byId = (id) => document.getElementById(id);
 
-/** Show one clear sentence about what went wrong, until it is closed or something goes right. */
-export function complain(problem) {
+/** Show a sentence about what went wrong, until it is closed or something goes right. */
+export function showError(problem) {
   const box = byId("alert");
   box.firstElementChild.textContent = problem instanceof Error ? problem.message : String(problem);
   box.hidden = false;
 }
 
-export function settle() {
+/** Hide the sentence about what went wrong. */
+export function clearError() {
   byId("alert").hidden = true;
 }
 
-/** Tell those who listen instead of look. */
-export function whisper(text) {
-  byId("whisper").textContent = text;
+/** Tell screen readers. */
+export function announce(text) {
+  byId("announcement").textContent = text;
 }
 
 /** Run something that may fail; what went wrong is shown in the page. */
 export async function attempt(work) {
   try {
     const result = await work();
-    settle();
+    clearError();
     return result;
   } catch (problem) {
-    complain(problem);
+    showError(problem);
     return undefined;
   }
 }
 
 export const percent = (share) => `${Math.round(100 * share)} %`;
+export const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+/** Whether the person wants no motion. */
 export const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;

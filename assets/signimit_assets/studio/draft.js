@@ -4,7 +4,7 @@
  */
 
 import { put } from "./api.js";
-import { complain } from "./dom.js";
+import { showError } from "./dom.js";
 import { accept, refresh, store } from "./store.js";
 
 export const SIGNS = ["sign 1", "sign 2"];
@@ -78,10 +78,10 @@ export class Draft {
       const session = await put(`sessions/${this.id}/draft`, { revision, number, drawn: unsent });
       if (store.session.id === this.id) accept(session);
     } catch (problem) {
-      if (problem.status === STALE && store.session.id === this.id) await refresh().catch(complain);
+      if (problem.status === STALE && store.session.id === this.id) await refresh().catch(showError);
       const same = table === this.table && number === this.number;
       if (same && problem.status !== UNUSABLE) this.unsent = { ...unsent, ...this.unsent };
-      if (revision === this.revision) complain(problem);
+      if (revision === this.revision) showError(problem);
       else await this.send();
     }
   }

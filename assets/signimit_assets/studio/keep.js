@@ -1,7 +1,7 @@
 /** Keep: sessions are listed, opened, begun, named, merged, exported and imported. */
 
 import * as api from "./api.js";
-import { attempt, button, byId, capital, make, whisper } from "./dom.js";
+import { announce, attempt, button, byId, capital, make, plural } from "./dom.js";
 import { change, open, path, store, subscribe } from "./store.js";
 
 const KINDS = {
@@ -65,7 +65,7 @@ export class Keep {
 
   async merge({ id, title }) {
     const merged = await attempt(() => change((revision) => api.post(path("merge"), { revision, other: id })));
-    if (merged) whisper(`${title} is merged into this session; undo in Teach takes it back.`);
+    if (merged) announce(`${title} is merged into this session; undo in Teach takes it back.`);
   }
 
   makeNew() {
@@ -143,5 +143,4 @@ export class Keep {
 }
 
 const languageName = (name) => (name === "paper" ? "the paper's language" : capital(name));
-const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 const bySuffix = (name) => store.studio.exports.find((known) => name.endsWith(known.slice(known.lastIndexOf("."))));

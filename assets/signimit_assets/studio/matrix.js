@@ -1,4 +1,4 @@
-/** Similarity of demonstrations as a matrix whose cells can be pointed at, also with the keyboard. */
+/** Similarities of the demonstrations as a matrix whose cells are read with the pointer or the keyboard. */
 
 import { get } from "./api.js";
 import { byId, make } from "./dom.js";
@@ -131,8 +131,8 @@ function outline(pen, [row, column], step) {
   pen.strokeRect(column * step - 1, row * step - 1, step + 2, step + 2);
 }
 
-/** Colour of a share from 0 to 1. */
-function shade(share) {
+/** Return the colour of a share from 0 to 1, as CSS. */
+export function shade(share) {
   const at = Math.min(0.9999, Math.max(0, share)) * (STOPS.length - 1);
   const [from, to, part] = [STOPS[Math.floor(at)], STOPS[Math.floor(at) + 1], at % 1];
   return `rgb(${from.map((x, i) => Math.round(x + (to[i] - x) * part)).join(" ")})`;

@@ -1,7 +1,7 @@
-/** A square to draw one sign in; a sign may be made of several strokes, made without a pause. */
+/** Pad: a square to draw one sign in, of one stroke or of several that are made without a pause. */
 
-import { button, calm, complain, make } from "./dom.js";
-import { Recording, TOO_LONG, fewEnough, followPointer, joined } from "./pen.js";
+import { button, calm, make, showError } from "./dom.js";
+import { Recording, TOO_LONG, fewEnough, followPointer, joined, passed } from "./pen.js";
 
 const PAUSE = 1500; // ms; after a longer one a new stroke begins the sign again
 const LEAST = 0.1; // of half the pad; what reaches less far was a tap
@@ -90,7 +90,7 @@ export class SignPad {
     this.lifted = performance.now();
     this.paint();
     this.changed(true);
-    if (made.late) complain(TOO_LONG);
+    if (made.late) showError(TOO_LONG);
   }
 
   cancel() {
@@ -151,7 +151,7 @@ export function playing(times, show, speed = PLAYBACK) {
   return new Promise((done) => {
     const frame = () => {
       const now = times[0] + (speed * (performance.now() - begun)) / 1000;
-      while (count < times.length && times[count] <= now) count += 1;
+      count = passed(times, now, count);
       if (show(count) === false || count === times.length) done();
       else requestAnimationFrame(frame);
     };

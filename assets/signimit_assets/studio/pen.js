@@ -1,4 +1,4 @@
-/** Strokes from a mouse, a pen or a finger. */
+/** Strokes: followed with a mouse, a pen or a finger, thinned, joined, and played again in time. */
 
 // Of a drawing, all its strokes together; the server takes 5000 and 600, bridges too.
 const MOST_POINTS = 4000;
@@ -87,6 +87,13 @@ export function fewEnough(strokes) {
 function thinned({ points, times }) {
   const keep = (_, i) => i % 2 === 0 || i === points.length - 1;
   return { points: points.filter(keep), times: times.filter(keep) };
+}
+
+/** Return how many samples of a stroke lie at a time or before, from a number that do; s. */
+export function passed(times, now, count = 0) {
+  let passing = count;
+  while (passing < times.length && times[passing] <= now) passing += 1;
+  return passing;
 }
 
 /** Join two strokes by a straight bridge, as if the pen had not been lifted. */

@@ -1,8 +1,8 @@
-/** Which parts are played by built-in people. */
+/** Choice of who makes the signs and who the movement: the person at the page, or built-in people. */
 
 import { make } from "./dom.js";
 
-export const ME = "me";
+const ME = "me";
 export const BUILT_IN = "built-in";
 
 /** Two choices of who plays; `chosen` is called when one changes. */

@@ -1,4 +1,4 @@
-/** What a person is asked to draw, in words and pictures. */
+/** Prompts: what to draw next, in words and pictures. */
 
 import { make } from "./dom.js";
 import { movementPicture, signPicture } from "./pictures.js";
@@ -46,4 +46,3 @@ export function examples(prompt, wished) {
   const captions = [...names, prompt.movement_name];
   return shown.map((picture, i) => make("figure", {}, picture, make("figcaption", { textContent: captions[i] })));
 }
-

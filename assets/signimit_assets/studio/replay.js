@@ -3,6 +3,7 @@
 import { blob, get } from "./api.js";
 import { attempt, button, byId, calm, capital, make } from "./dom.js";
 import { fitted } from "./pad.js";
+import { passed } from "./pen.js";
 import { beliefSentence, signPicture } from "./pictures.js";
 import { Stage, drawHand, drawLetters, drawObjects, drawPath, drawRing } from "./stage.js";
 import { demonstration, path, store, subscribe } from "./store.js";
@@ -107,10 +108,8 @@ export class Replay {
     if (!this.moving || what !== this.what || store.view !== "look") return;
     const { times } = what;
     const now = (SPEED * (performance.now() - this.begun)) / 1000;
-    let { count } = this;
-    while (count < times.length && times[count] <= now) count += 1;
-    this.put(count);
-    if (count < times.length) requestAnimationFrame(() => this.step(what));
+    this.put(passed(times, now, this.count));
+    if (this.count < times.length) requestAnimationFrame(() => this.step(what));
     else this.toggle();
   }
 
@@ -162,7 +161,7 @@ async function shownAnswer(chosen) {
     path: answer.path,
     times: answer.times,
     plane: "hand",
-    objectsAt: (time) => (answer.objects.findLast(([since]) => since <= time) ?? answer.objects[0])[1],
+    objectsAt: (time) => objectsAt(answer.objects, time),
     focus: answer.focus,
     sure: answer.confidence,
     sentence: capital(answer.text),
@@ -170,10 +169,14 @@ async function shownAnswer(chosen) {
   };
 }
 
+/** Return where the objects are at a time, from [since, places] in order; before the first they are there already. */
+export function objectsAt(moves, time) {
+  return (moves.findLast(([since]) => since <= time) ?? moves[0])[1];
+}
+
 /** Hand a file to the person at the page. */
-export function save(content, name) {
+function save(content, name) {
   const address = URL.createObjectURL(content);
   make("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), 60_000);
 }
-

@@ -1,4 +1,4 @@
-/** The table as the camera sees it, with a transparent sheet above to draw on. */
+/** Stage: the camera's picture of the table, with a transparent sheet above to draw on. */
 
 import { make } from "./dom.js";
 import { store } from "./store.js";
@@ -145,7 +145,7 @@ export function drawObjects(pen, objects) {
 }
 
 /** Draw a ring about an object, as much of it as the robot is sure. */
-export function drawRing(pen, place, share, name = "") {
+export function drawRing(pen, place, share) {
   const [x, y] = toPixels(place);
   const from = -Math.PI / 2;
   for (const [width, style, part] of [[11, HALO, 1], [2, "rgb(32 19 46 / 45%)", 1], [7, INK, share], [3, HAND, share]]) {
@@ -155,15 +155,6 @@ export function drawRing(pen, place, share, name = "") {
     pen.strokeStyle = style;
     pen.stroke();
   }
-  if (!name) return;
-  pen.font = "600 17px system-ui, sans-serif";
-  pen.textAlign = "center";
-  pen.lineWidth = 5;
-  pen.strokeStyle = HALO;
-  const above = y - RING - 16 > 14 ? y - RING - 16 : y + RING + 18;
-  pen.strokeText(name, x, above);
-  pen.fillStyle = INK;
-  pen.fillText(name, x, above);
 }
 
 /** Draw an arrow between two places, as strong as it is long. */

@@ -1,7 +1,7 @@
-/** The session that is open, and who wants to know when it changes. */
+/** The session that is open, its listeners, and its demonstrations once they are fetched. */
 
 import { Refusal, get, post } from "./api.js";
-import { complain } from "./dom.js";
+import { showError } from "./dom.js";
 
 const CHANGED = "Somebody changed this session meanwhile. Here it is as it is now; please do that again.";
 const listeners = new Set();
@@ -74,5 +74,5 @@ export const colour = (index) => store.studio.colours[index];
 
 /** Run something in the background; a failure is shown. */
 export function inBackground(work) {
-  work().catch(complain);
+  work().catch(showError);
 }

@@ -3,7 +3,7 @@
 import { get, post } from "./api.js";
 import { Ask } from "./ask.js";
 import { select } from "./belief.js";
-import { byId, complain } from "./dom.js";
+import { byId, plural, showError } from "./dom.js";
 import { QUESTION } from "./draft.js";
 import { Keep } from "./keep.js";
 import { Look } from "./look.js";
@@ -50,8 +50,7 @@ async function openSomething(id) {
 
 function header(session) {
   byId("session-title").textContent = session.title;
-  const count = session.demonstrations.length;
-  byId("session-facts").textContent = `${count} demonstration${count === 1 ? "" : "s"}`;
+  byId("session-facts").textContent = plural(session.demonstrations.length, "demonstration");
   address();
 }
 
@@ -124,7 +123,7 @@ async function follow({ session, view, caption, demonstration }) {
 }
 
 begin().catch((problem) => {
-  complain(problem);
+  showError(problem);
   document.body.dataset.ready = "no";
 });
 window.addEventListener("hashchange", () => { // somebody went back, or typed it
@@ -132,5 +131,5 @@ window.addEventListener("hashchange", () => { // somebody went back, or typed it
   if (id === store.session?.id && VIEWS.includes(view)) show(view);
   else location.reload();
 });
-window.addEventListener("unhandledrejection", (event) => complain(event.reason));
-window.addEventListener("error", (event) => complain(event.error ?? event.message));
+window.addEventListener("unhandledrejection", (event) => showError(event.reason));
+window.addEventListener("error", (event) => showError(event.error ?? event.message));

@@ -2,12 +2,11 @@
 
 import * as api from "./api.js";
 import { select, startBelief } from "./belief.js";
-import { attempt, button, byId, complain, make, settle, whisper } from "./dom.js";
+import { announce, attempt, button, byId, clearError, make, showError } from "./dom.js";
 import { Draft, HAND, SIGNS } from "./draft.js";
 import { SignPad, fitted } from "./pad.js";
 import { BUILT_IN, Roles } from "./people.js";
 import { counted, examples, sentence, shownTexts } from "./prompts.js";
-import { onUndoKeys } from "./shortcuts.js";
 import { change, demonstration, path, people, refresh, store, subscribe } from "./store.js";
 import { TeachTable } from "./teachtable.js";
 
@@ -52,7 +51,7 @@ export class Teach {
     this.undo.disabled = !session.can_undo;
     this.redo.disabled = !session.can_redo;
     const places = this.draft.follow(session);
-    if (places === null && !other && !this.busy && this.mine) complain("The table changed, as this session was changed elsewhere. Please draw again.");
+    if (places === null && !other && !this.busy && this.mine) showError("The table changed, as this session was changed elsewhere. Please draw again.");
     if (places === null) this.restore();
     else this.takeUp(places);
   }
@@ -165,7 +164,7 @@ export class Teach {
     this.restore();
     const which = number ?? session.demonstrations.length - 1;
     select(which);
-    whisper(session.belief?.failed ?? byId("chosen-belief")?.textContent ?? "");
+    announce(session.belief?.failed ?? byId("chosen-belief")?.textContent ?? "");
     return true;
   }
 
@@ -182,7 +181,7 @@ export class Teach {
   async remove(number) {
     if (this.draft.number !== null) this.begin();
     await attempt(() => change((revision) => api.remove(path(`demonstrations/${number}?revision=${revision}`))));
-    whisper(`Demonstration ${number} is deleted; undo brings it back.`);
+    announce(`Demonstration ${number} is deleted; undo brings it back.`);
   }
 
   async redraw(number) {
@@ -204,7 +203,7 @@ export class Teach {
       await this.act(prompt);
     } catch (problem) {
       this.roles.mine();
-      complain(problem);
+      showError(problem);
     } finally {
       this.playing = false;
     }
@@ -222,7 +221,7 @@ export class Teach {
     if (this.roles.movement !== BUILT_IN || !this.pads.every((pad) => pad.stroke)) return undefined;
     const { hand } = await people("movement", prompt);
     if (!same() || !(await this.table.play(hand))) return undefined;
-    settle();
+    clearError();
     setTimeout(() => this.submit());
     return undefined;
   }
@@ -246,4 +245,13 @@ export class Teach {
     await attempt(() => refresh());
     this.continue();
   }
+}
+
+/** Call back with "undo" or "redo" at Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, unless text is being typed. */
+function onUndoKeys(callback) {
+  document.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.target.closest("input, select, textarea")) return;
+    const what = { z: event.shiftKey ? "redo" : "undo", y: "redo" }[event.key.toLowerCase()];
+    if (what && callback(what)) event.preventDefault();
+  });
 }

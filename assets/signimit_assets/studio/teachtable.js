@@ -1,7 +1,7 @@
 /** The table of Teach: a movement is drawn on it, beginning at the hand. */
 
 import { blob } from "./api.js";
-import { byId, complain, make } from "./dom.js";
+import { byId, make, showError } from "./dom.js";
 import { playing } from "./pad.js";
 import { Recording, TOO_LONG, distance, followPointer } from "./pen.js";
 import { Stage, drawHand, drawLetters, drawObjects, drawPath } from "./stage.js";
@@ -51,7 +51,7 @@ export class TeachTable {
       if (this.picture !== picture) return;
       this.picture = null;
       await this.stage.show(null);
-      complain(problem);
+      showError(problem);
     }
     this.stage.paint();
   }
@@ -101,7 +101,7 @@ export class TeachTable {
     this.hint(this.hand ? "Draw it again from the yellow dot if you like." : HINT, !this.hand);
     this.stage.paint();
     this.changed();
-    if (made.late) complain(TOO_LONG);
+    if (made.late) showError(TOO_LONG);
   }
 
   cancel() {

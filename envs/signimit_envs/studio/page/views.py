@@ -32,7 +32,7 @@ def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
         "created": created.created,
         "revision": history.revision,
         "events": history.events,
-        "language": None if language is None else _language_json(created.language, language),
+        "language": None if language is None else language_json(created.language, language),
         "objects": created.objects,
         "demonstrations": [_listed_json(session, number, shown) for number, shown in enumerate(history.shown)],
         "answers": [answer_json(session, number, answer, state) for number, answer in enumerate(history.answers)],
@@ -109,7 +109,8 @@ def _request_json(request: Request | None) -> dict[str, int] | None:
     return None if request is None else {"movement": request.movement, "focus": request.focus}
 
 
-def _language_json(name: str, language: Language) -> dict[str, Any]:
+def language_json(name: str, language: Language) -> dict[str, Any]:
+    """Return the words and movements of a language, and which requests are never prompted for."""
     return {
         "name": name,
         "objects": [object_name(i) for i in range(language.objects)],
