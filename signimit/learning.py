@@ -17,8 +17,8 @@ from signimit.explanation import Query, Reasons, choose_query, explain_understan
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learners.base import SignReader, Understanding
-from signimit.learners.model_files import ModelParts, check_policy_kind, frozen, read_model, write_model
-from signimit.policies import DEFAULT_POLICY, PlacedPolicy, Policy, make_policy
+from signimit.learners.model_files import ModelParts, read_model, write_model
+from signimit.policies import DEFAULT_POLICY, PlacedPolicy, Policy, check_policy_kind, make_policy
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke
 from signimit.validation import finite_array, item_list, make_generator, moving_points
@@ -78,6 +78,11 @@ class ImitationModel:
     policy_kind: str
     prototypes: tuple[NDArray[np.float64], ...] | None = None
     _policies: dict[int, Policy] = field(default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        """Make the arrays read-only."""
+        for array in (self.labels, self.focus, *self.diagnostics.values()):
+            array.setflags(write=False)
 
     @property
     def labels(self) -> NDArray[np.int64]:
@@ -185,7 +190,7 @@ class ImitationModel:
         understanding = get_learner(self.method).extend(demos, self.understanding)
         if understanding is None:
             raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
-        later = type(self)(demos, frozen(understanding), self.method, self.policy_kind, self.prototypes)
+        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
         made = {self._shown(m): policy for m, policy in self._policies.items()}
         unchanged = {m: later._shown(m) for m in range(len(later.movements)) if later._shown(m) in made}
         later._policies.update({m: made[shown] for m, shown in unchanged.items()})
@@ -270,4 +275,4 @@ def learn(
     check_policy_kind(policy)
     strokes = None if prototypes is None else prototype_points(prototypes)
     understanding = learner.infer(demonstrations, strokes, make_generator(rng))
-    return ImitationModel(demonstrations, frozen(understanding), method, policy, strokes)
+    return ImitationModel(demonstrations, understanding, method, policy, strokes)

@@ -1,4 +1,4 @@
-"""Model files: what an imitator has seen and understood, in one ``.npz`` archive without pickles."""
+"""Model files: demonstrations and what was inferred from them, in one ``.npz`` archive without pickles."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from signimit.inference import WordOrder
 from signimit.io.archive import read_archive, write_archive
 from signimit.learners import get_learner
 from signimit.learners.base import Belief, Learner, Understanding
-from signimit.policies import POLICY_KINDS
+from signimit.policies import check_policy_kind
 from signimit.signs import prototype_points
 from signimit.strokes import cut, flatten
 from signimit.validation import float_array, whole_numbers
@@ -71,23 +71,6 @@ def read_model(path: str | os.PathLike[str]) -> ModelParts:
     return ModelParts(demos, understanding, method, kind, prototypes)
 
 
-def check_policy_kind(kind: str) -> None:
-    """Refuse a kind of policy that there is not.
-
-    Raises:
-        UnknownNameError: If so.
-    """
-    if kind not in POLICY_KINDS:
-        raise UnknownNameError("policy kind", kind, POLICY_KINDS)
-
-
-def frozen(understanding: Understanding) -> Understanding:
-    """Make the arrays read-only."""
-    for array in (understanding.labels, understanding.focus, *understanding.diagnostics.values()):
-        array.setflags(write=False)
-    return understanding
-
-
 def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:
     return {k.removeprefix(prefix): v for k, v in arrays.items() if k.startswith(prefix)}
 
@@ -106,7 +89,7 @@ def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: Demonstration
         named = zip(Belief._fields, shapes, strict=True)
         belief = Belief(*(float_array(known[name], name.replace("_", " "), shape) for name, shape in named))
     evidence = learner.restore_evidence(demos, known)
-    return frozen(Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), belief, evidence))
+    return Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), belief, evidence)
 
 
 def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:

@@ -52,9 +52,18 @@ def make_policy(paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: st
         InvalidInputError: If a demonstration is not a timed path.
         UnknownNameError: If there is no such kind.
     """
+    check_policy_kind(kind)
+    return _CLASSES[kind].learn(check_demonstrations(paths, times))
+
+
+def check_policy_kind(kind: str) -> None:
+    """Refuse a kind of policy that there is not.
+
+    Raises:
+        UnknownNameError: With the kinds there are.
+    """
     if kind not in POLICY_KINDS:
         raise UnknownNameError("policy kind", kind, POLICY_KINDS)
-    return _CLASSES[kind].learn(check_demonstrations(paths, times))
 
 
 def load_policy(path: str | os.PathLike[str]) -> Policy:
