@@ -98,12 +98,12 @@ offer_browser() {
     command -v chromium >/dev/null 2>&1 || say "no Chromium: the studio's page goes untested; to have it, type: sudo apt-get install chromium"
 }
 
-# What a program needs beside the core.
+# What a program and its subcommand need beside the core.
 purpose_of() {
-    case $1 in
-        test | studio) printf '%s' "$1" ;;
-        study | benchmark) printf 'study' ;;
-        convert | replay) printf 'formats' ;;
+    case "$1 ${2-}" in
+        'studio '* | 'timing studio') printf 'studio' ;;
+        'study '* | 'benchmark '*) printf 'study' ;;
+        'convert '* | 'replay '*) printf 'formats' ;;
         *) printf 'run' ;;
     esac
 }
@@ -162,5 +162,5 @@ fi
 what=$(printf '%s' "$what" | tr - _)
 case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
 [ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test$(programs)"
-ensure_environment "$(purpose_of "$what")"
+ensure_environment "$(purpose_of "$what" "${1-}")"
 exec "$venv/bin/python" "$root/scripts/$what.py" "$@"

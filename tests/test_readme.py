@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from signimit_envs.exceptions import RenderingError
@@ -51,6 +52,10 @@ def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.Ca
     assert "No demonstration is in doubt" in capsys.readouterr().out
     assert names["answer"][:2] == (1, 0)
     assert len(names["model"].labels) == 9
+    exec(BLOCKS[4], names)
+    assert capsys.readouterr().out == "(256, 401, 2)\n"
+    last = names["tracks"].paths[:, -100:] - names["scenes"][:, None, 0]
+    assert (np.hypot(*last.T).max(axis=0) < 0.2).all()  # a triangle with corners 0.1 to 0.15 m from the object
 
 
 def test_every_program_of_the_readme_exists() -> None:

@@ -5,6 +5,8 @@ Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/Tableto
 
 import gymnasium as _gym
 
+from signimit_envs.arm.batch import HandTracks as HandTracks
+from signimit_envs.arm.batch import reproduce_many as reproduce_many
 from signimit_envs.arm.scene import CONTROL_RATE as CONTROL_RATE
 from signimit_envs.exceptions import RenderingError as RenderingError
 from signimit_envs.sessions.reproduction import HandTrack as HandTrack

@@ -8,14 +8,15 @@ import gymnasium as gym
 import numpy as np
 import pytest
 
-from signimit_envs.timing.throughput.vector_envs import ENV_ID, make_vector_env
+ENV_ID = "signimit_envs:signimit/TabletopHand-v0"  # by this name a spawned process registers it
 
 
 @pytest.mark.parametrize(("mode", "count"), [("sync", 8), ("async", 2)])
 def test_every_environment_does_what_it_would_do_alone(mode: Literal["sync", "async"], count: int) -> None:
     """From its own seed, with its own requests, in this process and in spawned ones."""
     actions = np.random.default_rng(0).uniform(-0.5, 0.5, (10, count, 2)).astype(np.float32)
-    vector = make_vector_env(count, mode)
+    kwargs = {"context": "spawn"} if mode == "async" else {}  # so that worker processes may render
+    vector = gym.make_vec(ENV_ID, num_envs=count, vectorization_mode=mode, vector_kwargs=kwargs)
     observations, infos = vector.reset(seed=5)
     assert observations in vector.observation_space
     requests = np.array(infos["request"].tolist())

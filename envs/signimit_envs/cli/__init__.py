@@ -28,9 +28,7 @@ COMMANDS = {
     "benchmark": "the benchmark: run entries, make the leaderboard",
     "study": "learners and policies against their baselines",
     "train": "PPO of stable-baselines3 on the environments",
-    "speed": "what environments and core cost beside the plainest way",
-    "throughput": "many reproductions at once beside one at a time",
-    "studio-load": "what a page of the studio waits for",
+    "timing": "how long things take here, beside the plainest way: core, env, throughput, growth, studio",
     "results": "the tables of the README from the files of results",
     "doctor": "what works on this machine, and the line that mends the rest",
 }

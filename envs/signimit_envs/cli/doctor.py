@@ -12,7 +12,7 @@ import gymnasium as gym
 
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.tabletop_hand import TabletopHandEnv
-from signimit_envs.timing.measurements import time_frames
+from signimit_envs.timing.environments import time_frames
 from signimit_envs.video.rendering import choose_backend, has_display, renderer_name
 
 _NEEDED = ("signimit", "mujoco", "mink", "gymnasium", "numpy", "scipy", "imageio", "imageio-ffmpeg")
@@ -97,9 +97,9 @@ def _physics() -> Finding:
 def _pictures() -> list[Finding]:
     try:
         backend = choose_backend() or "the system's"
-        frames = time_frames(frames=10)
+        frames = time_frames(turns=10)
         chosen = "MUJOCO_GL asks for it" if os.environ.get("MUJOCO_GL") else "chosen"
-        detail = ", ".join(f"{camera} {seconds * 1e3:.1f} ms" for camera, seconds in frames.items())
+        detail = ", ".join(f"{frame.work} {frame.seconds * 1e3:.1f} ms" for frame in frames)
         return [
             Finding("opengl", True, f"{backend} ({chosen}), drawn by {renderer_name()}"),
             Finding("frames", True, f"480x480: {detail}"),

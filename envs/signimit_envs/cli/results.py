@@ -69,11 +69,10 @@ def read_csv(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def table_of_page(path: Path, start: str = "|") -> list[str]:
-    """Return the first Markdown table of a page that begins so, line by line."""
-    lines = path.read_text(encoding="utf-8").splitlines()
-    first = next(i for i, line in enumerate(lines) if line.startswith(start))
-    return list(itertools.takewhile(lambda line: line.startswith("|"), lines[first:]))
+def table_of_page(path: Path) -> list[str]:
+    """Return the first Markdown table of a page, line by line."""
+    lines = itertools.dropwhile(lambda line: not line.startswith("|"), path.read_text(encoding="utf-8").splitlines())
+    return list(itertools.takewhile(lambda line: line.startswith("|"), lines))
 
 
 def share(count: int, total: int) -> str:
@@ -176,7 +175,10 @@ def benchmark(results: Path) -> list[str]:
 
 def throughput(results: Path) -> list[str]:
     """Many reproductions at once beside one at a time."""
-    return table_of_page(results / "throughput" / "throughput.md", "| at once")
+    head = ("at once", "threads", "reproductions a second", "least of all turns", "the same by computing time")
+    rows = read_json(results / "throughput" / "throughput.json")["batches"]
+    times = ("faster", "lowest", "computing")
+    return table(head, [(r["batch"], r["threads"] or "all", *(f"{r[name]:.1f} x" for name in times)) for r in rows])
 
 
 TABLES: dict[str, Callable[[Path], list[str]]] = {

@@ -18,7 +18,6 @@ from signimit.benchmark.studies.asking import asking_cells, run_lessons
 from signimit.benchmark.studies.cells import Cell, People, study_cells
 from signimit.benchmark.studies.left_out_people import FoldRow, leave_people_out
 from signimit.benchmark.studies.records import OURS, Record, Run, read_records, run_session, run_sessions
-from signimit.benchmark.studies.scaling import Measurement, measure_growth
 from signimit.benchmark.studies.scoring import calibrate
 from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quizzes
 from signimit.benchmark.studies.tables import (
@@ -40,7 +39,6 @@ from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
 
 OUT = Path("results/study")
 UNDERSTOOD = 0.95  # share of commands that a lesson shall come to
-LONGEST = 100.0  # s of processors; a step that would take longer is not measured at larger sizes
 
 
 def cells(
@@ -223,28 +221,6 @@ def reading_signs(*, signs: Path | None = None, sessions: int = 20, out: Path = 
         write_facts(folder / "signs.json", {"people": library.source if library else "synthetic"})
 
 
-def scaling(*, counts: tuple[int, ...] = (12, 25, 50, 100, 200, 500, 1000), out: Path = OUT) -> None:
-    """Measure how time and memory grow with the number of demonstrations.
-
-    Args:
-        counts: Numbers of demonstrations to measure, ascending.
-        out: Folder for what is written.
-    """
-    from signimit.plots.studies import draw_growth
-
-    found = []
-    for measurement in measure_growth(counts, LONGEST):
-        print(
-            "{:5d} demonstrations, {:24s}{:8s}{:9.3f} s, {:9.3f} s of processors, {:8.1f} MB".format(*measurement),
-            flush=True,
-        )
-        found.append(measurement)
-    with whole_files(out) as folder:
-        write_csv(folder / "scaling.csv", Measurement._fields, found)
-        write_facts(folder / "scaling.json", {"processors": os.cpu_count(), "load": os.getloadavg()[0]})
-        draw_growth(found).savefig(folder / "scaling.png", dpi=90)
-
-
 def write_facts(path: Path, facts: dict[str, Any]) -> None:
     """Write how a table was made beside it."""
     made = {
@@ -259,5 +235,5 @@ def write_facts(path: Path, facts: dict[str, Any]) -> None:
 
 SUBCOMMANDS = {
     "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
-    "scaling": scaling, "policies": compare_policies, "lasa": compare_on_lasa,
+    "policies": compare_policies, "lasa": compare_on_lasa,
 }  # fmt: skip
