@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,7 +27,20 @@ NEAR = 0.12  # half sizes; closer, the phase moves on and the demonstrators' vel
 LOST = 0.4  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
 ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
+_AROUND = np.arange(-LOOK_AROUND, LOOK_AROUND + 1)
 BLOCK = 512  # hands at once: their table of gaps stays in the cache
+
+Nodes = NDArray[np.int64]
+
+
+class _PlainNumbers:
+    """Python's functions under numpy's names, for the rules of `PathFollowingPolicy`.
+
+    The rules are arithmetic on coordinates and nodes: arrays of shape (B,) for many hands, and Python's numbers for one
+    hand, because numpy takes six times as long for arrays of one.
+    """
+
+    sqrt, minimum, maximum, any = math.sqrt, min, max, bool
 
 
 class PhaseState(NamedTuple):
@@ -37,7 +50,7 @@ class PhaseState(NamedTuple):
         nodes: Expected node: a number for one hand, shape (B,) for many; None as long as no hand was seen.
     """
 
-    nodes: int | NDArray[np.int64] | None = None
+    nodes: int | Nodes | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,8 +69,8 @@ class PathFollowingPolicy(StoredPolicy):
     closed: float
     scale: float
     reach_speed: float
-    _ahead: Array = field(init=False, repr=False)
-    _rows: tuple[tuple[float, ...], ...] = field(init=False, repr=False)
+    _columns: Array = field(init=False, repr=False)  # of each node: x, y, m, and the velocity to the next, m/s
+    _rows: tuple[tuple[float, ...], ...] = field(init=False, repr=False)  # the same in Python's numbers
     _plane: NDArray[np.float32] = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -67,12 +80,13 @@ class PathFollowingPolicy(StoredPolicy):
             raise InvalidInputError("policy: course", "shape (M, 2)", f"shape {self.course.shape}")
         if not (0 < self.scale < np.inf and 0 < self.reach_speed < np.inf):
             raise InvalidInputError("policy: scale, speed", "positive", f"{self.scale}, {self.reach_speed}")
-        onward = self._onward(np.arange(len(self.course)))
-        ahead = frozen((self.course[onward] - self.course) / CONTROL_PERIOD)
-        half_squares = (self.course**2).sum(axis=1) / 2
-        object.__setattr__(self, "_ahead", ahead)
-        object.__setattr__(self, "_rows", tuple(map(tuple, np.hstack([self.course, ahead]).tolist())))
-        object.__setattr__(self, "_plane", np.vstack([-self.course.T, half_squares]).astype(np.float32))
+        onward = self.course[self._clip(np.arange(1, len(self.course) + 1), np)]
+        columns = frozen(np.hstack([self.course, (onward - self.course) / CONTROL_PERIOD]).T)
+        plane = np.vstack([-self.course.T, (self.course**2).sum(axis=1) / 2]).astype(np.float32)
+        plane.setflags(write=False)
+        object.__setattr__(self, "_columns", columns)
+        object.__setattr__(self, "_rows", tuple(zip(*columns.tolist(), strict=True)))
+        object.__setattr__(self, "_plane", plane)
 
     @classmethod
     def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
@@ -86,72 +100,85 @@ class PathFollowingPolicy(StoredPolicy):
 
     def step(self, state: PhaseState, hand: ArrayLike) -> tuple[PhaseState, Array]:
         """Return the next state and velocities, shape of ``hand``, m/s, for the next control period."""
-        hands, nodes = check_hand(hand), state.nodes
-        if nodes is not None and np.shape(nodes) != hands.shape[:-1]:
-            raise InvalidInputError("hand", f"hands of the state's shape {np.shape(nodes)}", f"{hands.shape}")
-        if hands.ndim == 1:
-            x, y = hands.tolist()
-            node = int(self._enter(hands[None])[0]) if nodes is None else self._observe_one(int(nodes), x, y)
-            onward, velocity = self._velocity_one(node, x, y)
-            return PhaseState(onward), velocity
-        nodes = self._enter(hands) if nodes is None else self._observe(np.asarray(nodes), hands)
-        velocity, near = self._velocity(nodes, hands)
-        expected = np.where(near, self._onward(nodes), nodes)
-        expected.setflags(write=False)
-        return PhaseState(expected), velocity
+        hands, expected = check_hand(hand), state.nodes
+        if expected is not None and np.shape(expected) != hands.shape[:-1]:
+            raise InvalidInputError("hand", f"hands of the state's shape {np.shape(expected)}", f"{hands.shape}")
+        x, y, xp = _coordinates(hands)
+        if expected is None:
+            nodes = _of_hands(hands, self._find(hands.reshape(-1, 2)))
+        else:
+            nodes = self._observe(expected, hands, x, y, xp)
+        velocity, onward = self._follow(nodes, x, y, xp)
+        return PhaseState(onward), velocity
 
     def __call__(self, hand: ArrayLike) -> Array:
         """Return velocities, shape of ``hand``, m/s, from the nearest place of the course, whatever was before."""
         hands = check_hand(hand)
-        if hands.ndim == 1:
-            return self._velocity_one(int(self._nearest(hands[None])[0]), *hands.tolist())[1]
-        return self._velocity(self._nearest(hands), hands)[0]
+        return self._follow(_of_hands(hands, self._nearest(hands.reshape(-1, 2))), *_coordinates(hands))[0]
 
-    def _velocity_one(self, node: int, x: float, y: float) -> tuple[int, Array]:
-        """Return for one hand the next node and the velocity: `_velocity` in plain numbers, several times faster."""
-        px, py, vx, vy = self._rows[node]
-        gap_x, gap_y = px - x, py - y
-        distance = math.hypot(gap_x, gap_y)
-        follow = 1.0 / (1.0 + (distance / (NEAR * self.scale)) ** 4)
-        pull = min(PULL, self.reach_speed / max(distance, 1e-9))
-        onward = self._onward_one(node) if follow > 0.5 else node
-        return onward, np.array([follow * vx + pull * gap_x, follow * vy + pull * gap_y])
+    def _at(self, nodes: Any, xp: Any) -> Any:
+        """Return x and y of nodes, m, and the velocities there along x and y, m/s."""
+        return self._rows[nodes] if xp is _PlainNumbers else self._columns.take(nodes, axis=1)
 
-    def _observe_one(self, expected: int, x: float, y: float) -> int:
-        """Return the node that a hand is at: the expected one, or one near it, or anywhere if the hand is lost."""
-        px, py, _, _ = self._rows[expected]
-        distance = math.hypot(px - x, py - y)
-        if distance <= SURE * self.scale:
+    def _follow(self, nodes: Any, x: Any, y: Any, xp: Any) -> tuple[Array, Any]:
+        """Return the velocities of hands at nodes, and the nodes to expect them at a control period later."""
+        node_x, node_y, ahead_x, ahead_y = self._at(nodes, xp)
+        gap_x, gap_y = node_x - x, node_y - y
+        distance = xp.sqrt(gap_x * gap_x + gap_y * gap_y)
+        square = (distance / (NEAR * self.scale)) ** 2
+        follow = 1.0 / (1.0 + square * square)
+        pull = xp.minimum(PULL, self.reach_speed / xp.maximum(distance, 1e-9))
+        velocity = np.array([follow * ahead_x + pull * gap_x, follow * ahead_y + pull * gap_y]).T
+        onward = self._clip(nodes + (follow > 0.5), xp)
+        if xp is np:
+            onward.setflags(write=False)
+        return velocity, onward
+
+    def _observe(self, expected: Any, hands: Array, x: Any, y: Any, xp: Any) -> Any:
+        """Return the node that each hand is at: the expected one, or one near it, or anywhere if the hand is lost."""
+        node_x, node_y, _, _ = self._at(expected, xp)
+        gap_x, gap_y = node_x - x, node_y - y
+        squares = gap_x * gap_x + gap_y * gap_y
+        astray = squares > (SURE * self.scale) ** 2
+        if not xp.any(astray):
             return expected
-        if distance > LOST * self.scale:
-            return int(self._nearest(np.array([[x, y]]), self._entry if expected < self._entry else None)[0])
-        size, rows = len(self._rows), self._rows
-        around = [expected + offset for offset in _OFFSETS.tolist()]
-        around = [n % size for n in around] if self.closed else [min(max(n, 0), size - 1) for n in around]
-        return min(around, key=lambda n: (rows[n][0] - x) ** 2 + (rows[n][1] - y) ** 2)
+        nodes, flat = np.array(expected, ndmin=1), hands.reshape(-1, 2)
+        late = np.flatnonzero(astray & (squares <= (LOST * self.scale) ** 2))
+        lost = np.flatnonzero(squares > (LOST * self.scale) ** 2)
+        if len(late):
+            around = self._clip(nodes[late, None] + _AROUND, np)
+            gaps = self.course.take(around, axis=0) - flat[late, None]
+            nodes[late] = around[np.arange(len(late)), np.einsum("bwd,bwd->bw", gaps, gaps).argmin(axis=1)]
+        if len(lost):
+            nodes[lost] = self._find(flat[lost], nodes[lost] < self._entry)
+        return _of_hands(hands, nodes)
 
-    def _onward_one(self, node: int) -> int:
-        return (node + 1) % len(self._rows) if self.closed else min(node + 1, len(self._rows) - 1)
+    def _find(self, hands: Array, coming: NDArray[np.bool_] | None = None) -> Nodes:
+        """Return the nearest node to each hand; a way to a goal is entered in its first part by hands that come to it.
 
-    def _onward(self, nodes: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the node one control period later."""
-        return (nodes + 1) % len(self.course) if self.closed else np.minimum(nodes + 1, len(self.course) - 1)
-
-    def _enter(self, hands: Array) -> NDArray[np.int64]:
-        """Return the node where hands begin: the nearest, but a way to a goal is entered in its first part."""
+        Args:
+            hands: Shape (B, 2), m.
+            coming: Which hands come to the course, shape (B,); left out, those that are far from it.
+        """
         nodes = self._nearest(hands)
         if not self.closed:
-            gap = self.course[nodes] - hands
-            away = np.flatnonzero(np.einsum("bd,bd->b", gap, gap) > (LOST * self.scale) ** 2)
-            nodes[away] = self._nearest(hands[away], self._entry)
+            if coming is None:
+                gap = self.course[nodes] - hands
+                coming = np.einsum("bd,bd->b", gap, gap) > (LOST * self.scale) ** 2
+            nodes[coming] = self._nearest(hands[coming], self._entry)
         return nodes
 
     @property
     def _entry(self) -> int:
         """Number of nodes at which the course may be entered from afar."""
-        return len(self._rows) if self.closed else max(int(ENTRY * len(self._rows)), 1)
+        return len(self.course) if self.closed else max(int(ENTRY * len(self.course)), 1)
 
-    def _nearest(self, hands: Array, among: int | None = None) -> NDArray[np.int64]:
+    def _clip(self, nodes: Any, xp: Any) -> Any:
+        """Return the nodes of numbers that may lie beyond the ends of the course."""
+        count = len(self.course)
+        return nodes % count if self.closed else xp.minimum(xp.maximum(nodes, 0), count - 1)
+
+    def _nearest(self, hands: Array, among: int | None = None) -> Nodes:
         """Return the nearest of the first so many nodes: the least of |p|² / 2 - p · x, by a product and a search."""
         plane = self._plane[:, :among]
         lifted = np.ones((len(hands), 3), dtype=np.float32)
@@ -163,47 +190,12 @@ class PathFollowingPolicy(StoredPolicy):
             np.dot(part, plane, out=table[: len(part)]).argmin(axis=1, out=nodes[i : i + BLOCK])
         return nodes
 
-    def _observe(self, expected: NDArray[np.int64], hands: Array) -> NDArray[np.int64]:
-        """Return the node that each hand is at: the expected one, or one near it, or anywhere if the hand is lost."""
-        gap = self.course.take(expected, axis=0) - hands
-        squares = np.einsum("bd,bd->b", gap, gap)
-        lost = np.flatnonzero(squares > (LOST * self.scale) ** 2)
-        late = np.flatnonzero((squares > (SURE * self.scale) ** 2) & (squares <= (LOST * self.scale) ** 2))
-        nodes = expected.copy()
-        if len(lost):
-            nodes[lost] = self._find(expected[lost], hands[lost])
-        if len(late):
-            nodes[late] = self._nearest_around(expected[late], hands[late])
-        return nodes
 
-    def _find(self, expected: NDArray[np.int64], hands: Array) -> NDArray[np.int64]:
-        """Return the nearest node to lost hands; of those still on their way to a goal's course, in its first part."""
-        nodes = self._nearest(hands)
-        if not self.closed:
-            coming = np.flatnonzero(expected < self._entry)
-            nodes[coming] = self._nearest(hands[coming], self._entry)
-        return nodes
-
-    def _nearest_around(self, expected: NDArray[np.int64], hands: Array) -> NDArray[np.int64]:
-        """Return the nearest node among those about the expected one."""
-        around = expected[:, None] + _OFFSETS
-        around = around % len(self.course) if self.closed else np.clip(around, 0, len(self.course) - 1)
-        gaps = self.course[around] - hands[:, None]
-        best = np.einsum("bwd,bwd->bw", gaps, gaps).argmin(axis=1)
-        nodes: NDArray[np.int64] = around[np.arange(len(hands)), best]
-        return nodes
-
-    def _velocity(self, nodes: NDArray[np.int64], hands: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """Return velocities, and which hands are near enough for the phase to move on."""
-        gap = self.course.take(nodes, axis=0) - hands
-        distance = np.sqrt(np.einsum("bd,bd->b", gap, gap))
-        follow = 1.0 / (1.0 + np.square(np.square(distance / (NEAR * self.scale))))
-        pull = np.minimum(PULL, self.reach_speed / np.maximum(distance, 1e-9))
-        velocity = self._ahead.take(nodes, axis=0)
-        velocity *= follow[:, None]
-        gap *= pull[:, None]
-        velocity += gap
-        return velocity, follow > 0.5
+def _coordinates(hands: Array) -> tuple[Any, Any, Any]:
+    """Return x and y of hands, m, and what computes with them: numpy, or `_PlainNumbers` for one hand."""
+    return (*hands.tolist(), _PlainNumbers) if hands.ndim == 1 else (hands[:, 0], hands[:, 1], np)
 
 
-_OFFSETS = np.arange(-LOOK_AROUND, LOOK_AROUND + 1)
+def _of_hands(hands: Array, nodes: Nodes) -> int | Nodes:
+    """Return the nodes of hands, shape (B,), as `PhaseState` keeps them: that of one hand as a number."""
+    return nodes.item() if hands.ndim == 1 else nodes
