@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signimit.exceptions import FileFormatError
-from signimit.io.formats.recording import Recording, library_from_recordings
+from signimit.io.formats.pen_recording import PenRecording, library_from_recordings
 from signimit.io.formats.textfile import local_name, read_xml
 from signimit.strokes import StrokeLibrary
 
@@ -44,7 +44,7 @@ def read_dollar(path: str | os.PathLike[str]) -> StrokeLibrary:
     if promised is not None and promised.strip() != str(count):
         raise FileFormatError(where, f"{promised} points as NumPts says", f"{count}")
     label = root.get("Name", "").rstrip("0123456789").strip("~_- ") or root.get("Name", "unknown")
-    recording = Recording(
+    recording = PenRecording(
         [part[:, :2] * (1.0, -1.0) for part in rows],
         [part[:, 2] / 1000.0 for part in rows],
         label,

@@ -1,8 +1,9 @@
-"""Reading strokes of any known format, one file or a folder of them."""
+"""Stroke files of any known format, one or a folder of them: read into one library, and listed."""
 
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -66,6 +67,16 @@ def is_library(path: str | os.PathLike[str]) -> bool:
     except FileFormatError:
         return False
     return True
+
+
+def inventory_table(library: StrokeLibrary) -> str:
+    """Return how many strokes there are of each label (rows) by each writer (columns)."""
+    counts = Counter(zip(library.labels, library.writers, strict=True))
+    labels = sorted(set(library.labels))
+    writers = sorted(set(library.writers), key=lambda writer: (len(writer), writer))  # "2" before "13"
+    rows = [["label", *writers], *([label, *(str(counts[label, w]) for w in writers)] for label in labels)]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(writers) + 1)]
+    return "\n".join("  ".join(word.rjust(width) for word, width in zip(row, widths, strict=True)) for row in rows)
 
 
 def _files(path: Path, format: str) -> list[tuple[Path, str]]:

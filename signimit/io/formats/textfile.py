@@ -1,4 +1,4 @@
-"""Text and XML files from strangers: bounded, and nothing in them is expanded or fetched."""
+"""Bounded reading of text and XML files from anywhere; nothing in them is expanded or fetched."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from signimit.exceptions import FileFormatError
-from signimit.io.formats.recording import Recording, library_from_recordings
+from signimit.io.formats.pen_recording import PenRecording, library_from_recordings
 from signimit.io.formats.textfile import read_text
 from signimit.strokes import StrokeLibrary
 
@@ -54,7 +54,7 @@ def read_unipen(path: str | os.PathLike[str]) -> StrokeLibrary:
                 place, f"{segment.promised} pen-down pieces of {segment.label!r}", f"{len(segment.pieces)}"
             )
         pieces = [np.array(piece, dtype=np.float64).reshape(-1, 2) for piece in segment.pieces]
-        recordings.append(Recording(pieces, None, segment.label, segment.writer, place))
+        recordings.append(PenRecording(pieces, None, segment.label, segment.writer, place))
     if not recordings:
         raise FileFormatError(where, 'UNIPEN text with .SEGMENT ... "label"', "no segment")
     return library_from_recordings(recordings, f"UNIPEN {os.path.basename(where)}")

@@ -20,9 +20,8 @@ import numpy as np
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.io.formats.inkml import read_inkml
-from signimit.io.formats.inkml_writer import write_inkml
-from signimit.io.formats.recording import SAMPLE_TIME
+from signimit.io.formats.inkml import read_inkml, write_inkml
+from signimit.io.formats.pen_recording import SAMPLE_TIME
 from signimit.io.safe_files import replaced_file
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.languages import Language

@@ -1,4 +1,4 @@
-"""Reading whatever lies in a folder."""
+"""Strokes read from files and whole folders, and the table of what is in a library."""
 
 import sys
 from pathlib import Path
@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from signimit import FileFormatError, MissingDependencyError, UnknownNameError
-from signimit.io.formats import detect_format, read_strokes, write_inkml
+from signimit import FileFormatError, MissingDependencyError, Stroke, StrokeLibrary, UnknownNameError
+from signimit.io.formats import detect_format, inventory_table, read_strokes, write_inkml
 from signimit.teaching.people import synthetic_library
 
 UNIPEN = '.SEGMENT DIGIT 0 ? "6"\n.COMMENT 6 13 38\n.PEN_DOWN\n1 2\n3 4\n.PEN_UP\n'
@@ -70,3 +70,9 @@ def test_xml_without_defusedxml_says_what_to_install(folder: Path, monkeypatch: 
     with pytest.raises(MissingDependencyError, match=r"needs defusedxml: pip install 'signimit\[strokes\]'"):
         read_strokes([folder / "c.inkml"])
     assert read_strokes([folder / "b.txt"]).labels == ("6",)
+
+
+def test_labels_are_rows_and_writers_columns_in_the_order_people_count() -> None:
+    stroke = Stroke(np.array([(0, 0), (1, 1.0)]), np.array([0, 1.0]))
+    library = StrokeLibrary((stroke,) * 4, ("star", "4", "star", "star"), ("13", "2", "2", "2"))
+    assert inventory_table(library) == "label  2  13\n    4  1   0\n star  2   1"

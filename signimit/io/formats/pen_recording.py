@@ -1,4 +1,4 @@
-"""What a recording device stores: pieces of pen movement, between which the pen was up."""
+"""Recordings of pens, and strokes made of them: pieces of movement, joined where the pen was up."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MOST_STEPS = 1000  # of a bridge
 SAMPLE_TIME = 0.01  # s, between points of recordings without time stamps
 
 
-class Recording(NamedTuple):
+class PenRecording(NamedTuple):
     """One recorded drawing.
 
     Attributes:
@@ -25,7 +25,7 @@ class Recording(NamedTuple):
         stamps: When, each of shape (T_i,), s; none if the device did not say.
         label: What was drawn.
         writer: Who drew it.
-        where: File and place in it, for complaints.
+        where: File and place in it, for errors.
     """
 
     pieces: Sequence[NDArray[np.float64]]
@@ -35,7 +35,7 @@ class Recording(NamedTuple):
     where: str
 
 
-def library_from_recordings(recordings: Sequence[Recording], source: str) -> StrokeLibrary:
+def library_from_recordings(recordings: Sequence[PenRecording], source: str) -> StrokeLibrary:
     """Make each recording one stroke.
 
     Raises:
@@ -45,7 +45,7 @@ def library_from_recordings(recordings: Sequence[Recording], source: str) -> Str
     return StrokeLibrary(strokes, tuple(r.label for r in recordings), tuple(r.writer for r in recordings), source)
 
 
-def stroke_from_recording(recording: Recording) -> Stroke:
+def stroke_from_recording(recording: PenRecording) -> Stroke:
     """Join the pieces of a recording, with a straight line of about the median step where the pen was up.
 
     Points without time stamps, and those of the bridges between them, are taken to be 10 ms apart. With stamps, a

@@ -7,13 +7,13 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from signimit import FileFormatError, InvalidInputError
-from signimit.io.formats.recording import Recording, spread_ties, stroke_from_recording
+from signimit.io.formats.pen_recording import PenRecording, spread_ties, stroke_from_recording
 
 DOWN = [np.array([(0, 0), (1, 0), (2, 0.0)]), np.array([(2, 4), (3, 4.0)])]
 
 
-def recording(pieces: list[np.ndarray], stamps: list[np.ndarray] | None = None) -> Recording:
-    return Recording(pieces, stamps, "4", "ann", "f.txt: line 3")
+def recording(pieces: list[np.ndarray], stamps: list[np.ndarray] | None = None) -> PenRecording:
+    return PenRecording(pieces, stamps, "4", "ann", "f.txt: line 3")
 
 
 def test_a_pen_up_gap_is_bridged_by_a_straight_line_of_the_median_step() -> None:
