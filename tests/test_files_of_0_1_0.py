@@ -21,7 +21,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 import signimit as si
-from signimit.benchmark.registry import refer_to
+from signimit.benchmark.entries import refer_to
 from signimit.benchmark.results import ResultFile, read_summaries
 from signimit.benchmark.tables import leaderboard
 from signimit.io.formats import read_csv_demonstrations, read_inkml, read_strokes

@@ -17,7 +17,6 @@ import signimit_envs
 
 SIMULATOR = {"mujoco", "mink", "gymnasium", "signimit_envs", "signimit_assets"}
 UNREACHED = ("signimit.plots", "signimit.io.formats", "signimit.benchmark", "signimit.__main__")
-PENDING = {"signimit.intervals", "signimit.teaching.people.casting", "signimit.teaching.people.relabelling"}
 LEARNS = ("learning", "learners", "explanation", "policies", "grouping", "inference", "similarity", "signs", "paths",
           "demonstrations", "strokes", "evaluation", "io.archive", "io.safe_files")  # fmt: skip
 
@@ -84,8 +83,13 @@ def test_import_signimit_reaches_every_module_of_the_core_with_numpy_and_scipy_o
     assert done.returncode == 0, done.stderr
     reached = set(done.stdout.split())
     wanted = {name for name in CORE if not name.startswith(UNREACHED) and not name.endswith("_numba")}
-    assert sorted(wanted - reached - PENDING) == []
+    assert sorted(wanted - reached) == []
     assert not {"signimit.plots", "signimit.benchmark"} & reached
+
+
+def test_the_benchmark_does_not_build_on_its_studies() -> None:
+    public = [name for name in CORE if name.startswith("signimit.benchmark") and ".studies" not in name]
+    assert [name for name in public if any(".benchmark.studies" in other for other in imports(name))] == []
 
 
 def test_nothing_that_learns_needs_what_composes_lessons() -> None:

@@ -134,7 +134,7 @@ def test_the_hand_circles_the_right_object_by_the_50_nearest_points_through_mink
     rng = np.random.default_rng(focus)
     language = si.PAPER_LANGUAGE
     labels = language.focus_signs[focus], language.movement_signs[CIRCLE]
-    utterance = [people[0].draw(label, rng)[0].points for label in labels]
+    utterance = [people[0].draw(label, rng).points for label in labels]
     objects = np.array([[-0.22, 0.05], [0.02, 0.16], [0.21, -0.08]])[rng.permutation(3)]
     observation, _ = env.reset(seed=focus, options={"objects": objects, "hand": [0.0, -0.15]})
     response = model.respond(utterance, observation["objects"])

@@ -9,9 +9,7 @@ from importlib import import_module
 from itertools import islice
 from typing import Any
 
-from signimit.benchmark.engines import WAITING, Engine, batches_of, check_counts, run_batch
-from signimit.benchmark.provenance import code_hash
-from signimit.benchmark.running import Task
+from signimit.benchmark.running import WAITING, Engine, Task, batches_of, check_counts, code_hash, run_batch
 from signimit.exceptions import InvalidInputError, MissingDependencyError
 from signimit.io.safe_files import Record
 

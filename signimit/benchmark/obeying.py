@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.benchmark.commands import Command
 from signimit.benchmark.protocol import Entry, Observation
 from signimit.exceptions import InvalidInputError
 from signimit.policies import CONTROL_PERIOD, Policy, run_policy
+from signimit.teaching.sessions import Command
 
 SECONDS = 10.0  # how long a hand moves for each command
 FASTEST = 1.2  # m/s along either axis, the arm's `max_hand_speed`; what is faster is slowed down as a whole

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import hashlib
 import json
+import platform
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import asdict
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from signimit.benchmark.engines import Engine
+from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.protocol import Oracle
-from signimit.benchmark.provenance import code_hash, versions
-from signimit.benchmark.registry import EntrantReference, get_entrant
-from signimit.benchmark.running import Task
+from signimit.benchmark.running import Engine, Task, code_hash
 from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, estimate_stage
@@ -25,6 +26,7 @@ from signimit.exceptions import FileFormatError
 from signimit.io.safe_files import Record, append_record, read_records, replaced_file
 
 FORMAT, VERSION = "signimit benchmark results", 1
+PACKAGES = ("signimit", "numpy", "scipy", "scikit-learn", "torch")  # that a result may depend on
 NEEDED = frozenset({"split", "seed", "code", "demonstrations", "obeyed", "misfit", "seconds"})
 Summary = dict[str, Any]
 
@@ -118,7 +120,21 @@ def summarise(file: ResultFile) -> Summary:
             splits[name] = _summarise_split(name, mine)
     facts = {**file.header, "title": entrant.title, "oracle": isinstance(entrant, Oracle)}
     del facts["splits"]
-    return {**facts, "versions": versions(), "digest": records_digest(records), "splits": splits}
+    return {
+        **facts,
+        "versions": {"machine": platform.machine(), **installed_versions(*PACKAGES)},
+        "digest": records_digest(records),
+        "splits": splits,
+    }
+
+
+def installed_versions(*packages: str) -> dict[str, str]:
+    """Return the versions of Python and of those packages that are installed."""
+    versions = {"python": platform.python_version()}
+    for package in packages:
+        with suppress(PackageNotFoundError):
+            versions[package] = version(package)
+    return versions
 
 
 def _summarise_split(name: str, records: Sequence[Record]) -> dict[str, Any]:

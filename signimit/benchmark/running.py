@@ -1,30 +1,48 @@
-"""One session from beginning to end: the unit of work that is sent about, and the record that comes back."""
+"""Running sessions: one from beginning to end, and many on the processors of this machine.
+
+An engine takes tasks and yields their records as they end, in any order. Every session depends on its task alone, so
+that all engines give the same records.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import multiprocessing
+import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from functools import cache
+from itertools import islice
+from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+import signimit
+from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.obeying import obey
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle, Truth
-from signimit.benchmark.provenance import code_hash
-from signimit.benchmark.registry import EntrantReference, get_entrant
-from signimit.benchmark.scoring import Judge, Understood, count_signs_read, score_understanding
-from signimit.benchmark.sessions import BenchmarkSession, Lesson, entry_stream, with_more_demonstrations
+from signimit.benchmark.scoring import count_signs_read, judge_inference, score_path
 from signimit.benchmark.shipped_sessions import get_session, session_hash
-from signimit.benchmark.splits import get_split
+from signimit.benchmark.splits import entry_stream, get_split, with_more_demonstrations
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import Record
 from signimit.learners.base import Understanding
+from signimit.teaching.sessions import Session
+
+WAITING = 2  # batches a worker that wait or run: enough that none idles, few enough for millions of tasks
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class Task(NamedTuple):
     """A session to run: enough to run it anywhere.
 
     Attributes:
-        entrant: Who takes part.
+        entrant: The entry that takes part.
         split: Name of the split.
         seed: Number of the session.
     """
@@ -32,6 +50,9 @@ class Task(NamedTuple):
     entrant: EntrantReference
     split: str
     seed: int
+
+
+Engine = Callable[[Iterable[Task]], Iterator[Record]]
 
 
 def run_task(task: Task) -> Record:
@@ -47,23 +68,27 @@ def run_task(task: Task) -> Record:
     began = time.thread_time()
     entrant = get_entrant(task.entrant)
     session = get_session(get_split(task.split), task.seed)
-    lesson = with_more_demonstrations(session, entrant.demonstrations)
+    extended = with_more_demonstrations(session, entrant.demonstrations)
     composed = time.thread_time()
     with _blaming(f"entry {task.entrant.name}, split {task.split}, session {task.seed}"):
-        entry = make_entry(entrant, session, lesson)
-        entry.observe(lesson.demonstrations)
+        entry = make_entry(entrant, extended)
+        entry.observe(extended.demonstrations)
         observed = time.thread_time()
         understanding: Understanding | None = getattr(entry, "understanding", None)
-        answers = _answers(entry, session, lesson, understanding)
-    understood = None if understanding is None else score_understanding(understanding, lesson.truth)
+        answers = _score_commands(entry, extended, session.truth.templates, understanding)
+    inferences = {}
+    if understanding is not None:
+        verdict = judge_inference(understanding, extended.truth)
+        focus = verdict.foci_right.count / verdict.foci_right.total
+        inferences = {"groups": verdict.rand_index, "focus": focus, "order": float(verdict.word_order)}
     times = {"compose": composed - began, "observe": observed - composed, "act": time.thread_time() - observed}
     return {
         "split": task.split,
         "seed": task.seed,
         "session": session_hash(session),
         "code": code_hash(),
-        "demonstrations": len(lesson.demonstrations),
-        **(Understood(*understood)._asdict() if understood else {}),
+        "demonstrations": len(extended.demonstrations),
+        **inferences,
         **answers,
         "seconds": {part: round(spent, 4) for part, spent in times.items()},
     }
@@ -81,28 +106,112 @@ def _blaming(where: str) -> Iterator[None]:
         raise
 
 
-def make_entry(entrant: Entrant | Oracle, session: BenchmarkSession, lesson: Lesson) -> Entry:
+def make_entry(entrant: Entrant | Oracle, session: Session) -> Entry:
     """Make the entry of a session; only an oracle is told the truth."""
-    kit = Kit(session.prototypes, entry_stream(session))
+    kit = Kit(tuple(p.points for p in session.prototypes), entry_stream(session))
     if isinstance(entrant, Oracle):
-        return entrant.make(kit, Truth(lesson.truth, tuple(c.request for c in session.commands)))
+        return entrant.make(kit, Truth(session.truth, tuple(c.request for c in session.commands)))
     return entrant.make(kit)
 
 
-def _answers(
-    entry: Entry, session: BenchmarkSession, lesson: Lesson, understanding: Understanding | None
+def _score_commands(
+    entry: Entry,
+    session: Session,
+    templates: Sequence[Sequence[NDArray[np.float64]]],
+    understanding: Understanding | None,
 ) -> dict[str, list[Any]]:
-    """Let the entry answer all commands, and judge what it did."""
-    judge, obeyed, misfit, read = Judge(session.truth.templates), [], [], []
+    """Let the entry obey all commands, and judge what it did."""
+    obeyed, misfit, read = [], [], []
     for command in session.commands:
-        done = judge.judge(obey(entry, command), command)
+        done = score_path(obey(entry, command), command, templates)
         obeyed.append(int(done.obeyed))
         misfit.append(done.misfit)
         reading = getattr(entry, "reading", None)
         if reading is not None and understanding is not None:
-            read.append(count_signs_read(reading, understanding, lesson.truth, command.request))
-    answers: dict[str, list[Any]] = {"obeyed": obeyed, "misfit": misfit}
+            read.append(count_signs_read(reading, understanding, session.truth, command.request))
+    scores: dict[str, list[Any]] = {"obeyed": obeyed, "misfit": misfit}
     if len(read) == len(obeyed):
-        answers["read"] = read
+        scores["read"] = read
     families = [c.family for c in session.commands]
-    return answers | ({"families": families} if len(set(families)) < len(families) else {})
+    return scores | ({"families": families} if len(set(families)) < len(families) else {})
+
+
+@cache
+def code_hash() -> str:
+    """Return a short SHA-256 of all modules of signimit, the same wherever and however it is installed."""
+    folder, sha = Path(signimit.__file__).parent, hashlib.sha256()
+    for path in sorted(folder.rglob("*.py"), key=lambda p: p.relative_to(folder).as_posix()):
+        sha.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n"))
+    return sha.hexdigest()[:16]
+
+
+def run_batch(tasks: list[Task]) -> list[Record]:
+    """Run some sessions, one after the other; what is sent to a worker."""
+    return [run_task(task) for task in tasks]
+
+
+def batches_of(tasks: Iterable[Task], size: int) -> Iterator[list[Task]]:
+    """Cut tasks into batches."""
+    rest = iter(tasks)
+    while batch := list(islice(rest, size)):
+        yield batch
+
+
+def check_counts(**counts: int) -> None:
+    """Refuse numbers of workers or sessions below one.
+
+    Raises:
+        InvalidInputError: Names the first.
+    """
+    for name, count in counts.items():
+        if count < 1:
+            raise InvalidInputError(name, "at least 1", f"{count}")
+
+
+def local_engine(workers: int, batch: int = 1) -> Engine:
+    """Make the engine that uses this machine's processors.
+
+    Args:
+        workers: How many processes.
+        batch: Sessions handed to a process together.
+
+    Raises:
+        InvalidInputError: If there are no workers, or, while the engine runs, one of them is killed.
+    """
+    check_counts(workers=workers, batch=batch)
+
+    def run(tasks: Iterable[Task]) -> Iterator[Record]:
+        context = multiprocessing.get_context("spawn")
+        with _single_threads(), ProcessPoolExecutor(workers, context) as pool:
+            try:
+                yield from _in_turns(pool, batches_of(tasks, batch), WAITING * workers)
+            except BrokenProcessPool:
+                found = "one that was killed; what was done is kept, run again to go on"
+                raise InvalidInputError("workers", "processes that live", found) from None
+
+    return run
+
+
+def _in_turns(pool: ProcessPoolExecutor, batches: Iterator[list[Task]], room: int) -> Iterator[Record]:
+    """Keep so many batches under way."""
+    pending: set[Future[list[Record]]] = {pool.submit(run_batch, batch) for batch in islice(batches, room)}
+    while pending:
+        done, pending = wait(pending, return_when=FIRST_COMPLETED)
+        pending |= {pool.submit(run_batch, batch) for batch in islice(batches, len(done))}
+        for future in done:
+            yield from future.result()
+
+
+@contextmanager
+def _single_threads() -> Iterator[None]:
+    """Let processes that are started meanwhile do their linear algebra in one thread: there is one for each core."""
+    before = {name: os.environ.get(name) for name in _THREADS}
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value

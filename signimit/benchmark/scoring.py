@@ -1,37 +1,116 @@
-"""Scores of one session, stage by stage: what was understood, what was read, what was done."""
+"""Scores of one session: what was inferred, what was read and what was done, compared with what was meant."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.benchmark.commands import Command
+from signimit.benchmark.statistics import Share
 from signimit.evaluation import TOLERANCE, movement_error, performed, prepare_templates, settled_part
-from signimit.learners.base import Reading, Understanding
+from signimit.inference import WordOrder
+from signimit.learners.base import Reading
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Request
+from signimit.teaching.sessions import Command
 
 WORST = 1.0  # half sizes; a larger misfit, or a hand that rested, counts as this much
 
 
-class Understood(NamedTuple):
-    """How well the demonstrations were understood.
+class Inferences(Protocol):
+    """What a method inferred from demonstrations: an `ImitationModel`, or an `Understanding`."""
+
+    @property
+    def labels(self) -> NDArray[np.int64]:
+        """Movement of each demonstration, shape (N,), numbered in any way."""
+        ...
+
+    @property
+    def focus(self) -> NDArray[np.int64]:
+        """Object of each demonstration, shape (N,)."""
+        ...
+
+    @property
+    def word_order(self) -> WordOrder:
+        """Which word names the object and which the movement."""
+        ...
+
+
+class InferenceVerdict(NamedTuple):
+    """Whether what was inferred is true.
 
     Attributes:
-        groups: Adjusted Rand index of the movements found, 1 at best, 0 by chance.
-        focus: Share of demonstrations whose object is right.
-        order: Whether the word order is right, 0 or 1.
+        grouping: Demonstrations of one movement, and only they, are in one group.
+        focus: Every demonstration's object is right.
+        word_order: Both words are right.
+        foci_right: How many demonstrations' objects are right.
+        rand_index: Adjusted Rand index of the grouping, 1 at best, 0 by chance.
     """
 
-    groups: float
-    focus: float
-    order: float
+    grouping: bool
+    focus: bool
+    word_order: bool
+    foci_right: Share
+    rand_index: float
+
+    @property
+    def all_right(self) -> bool:
+        """Whether nothing was inferred wrong."""
+        return self.grouping and self.focus and self.word_order
 
 
-class Done(NamedTuple):
+def judge_inference(inferred: Inferences, truth: GroundTruth) -> InferenceVerdict:
+    """Compare what was inferred from demonstrations with what they were."""
+    foci = Share.of(np.asarray(inferred.focus) == truth.focus)
+    order = tuple(inferred.word_order) == (truth.language.focus_word, truth.language.movement_word)
+    return InferenceVerdict(
+        same_partition(inferred.labels, truth.movement),
+        foci.count == foci.total,
+        order,
+        foci,
+        adjusted_rand_index(inferred.labels, truth.movement),
+    )
+
+
+def same_partition(labels: ArrayLike, others: ArrayLike) -> bool:
+    """Tell whether two labellings, shape (N,) each, part the demonstrations in the same way."""
+    a, b = np.asarray(labels).tolist(), np.asarray(others).tolist()
+    return len(set(zip(a, b, strict=True))) == len(set(a)) == len(set(b))
+
+
+def adjusted_rand_index(found: ArrayLike, true: ArrayLike) -> float:
+    """Compare two groupings, each of shape (N,).
+
+    Source: L. Hubert and P. Arabie, Journal of Classification 2, 1985 (doi:10.1007/BF01908075).
+    """
+
+    def pairs(counts: NDArray[np.generic]) -> float:
+        numbers = counts.astype(np.float64)
+        return float((numbers * (numbers - 1) / 2).sum())
+
+    ours, theirs = (np.unique(np.asarray(labels), return_inverse=True)[1] for labels in (found, true))
+    table = np.zeros((ours.max() + 1, theirs.max() + 1))
+    np.add.at(table, (ours, theirs), 1)
+    together = pairs(table)
+    rows, columns, everything = pairs(table.sum(axis=1)), pairs(table.sum(axis=0)), pairs(np.array(len(ours)))
+    expected = rows * columns / everything if everything else 0.0
+    best = (rows + columns) / 2
+    return 1.0 if best == expected else float((together - expected) / (best - expected))
+
+
+def count_signs_read(reading: Reading, inferred: Inferences, truth: GroundTruth, request: Request) -> int:
+    """Count the signs of an utterance that were read right, 0 to 2: the movement's and the object's.
+
+    A movement that was found stands for what most of its members show.
+    """
+    members = np.asarray(inferred.labels) == int(np.argmax(reading.movement))
+    shown = np.bincount(truth.movement[members]) if members.any() else np.zeros(1)
+    return int(shown.argmax() == request.movement and shown.any()) + int(np.argmax(reading.focus) == request.focus)
+
+
+class CommandScore(NamedTuple):
     """What became of a command.
 
     Attributes:
@@ -43,58 +122,22 @@ class Done(NamedTuple):
     misfit: float
 
 
-def adjusted_rand_index(found: ArrayLike, true: ArrayLike) -> float:
-    """Compare two groupings, each of shape (N,).
+def score_path(
+    path: NDArray[np.float64], command: Command, templates: Sequence[Sequence[NDArray[np.float64]]]
+) -> CommandScore:
+    """Say whether a hand did what a command asks for.
 
-    Source: L. Hubert and P. Arabie, Journal of Classification 2, 1985 (doi:10.1007/BF01908075).
+    Args:
+        path: Where it was, shape (T, 2), m, table frame.
+        command: The command.
+        templates: Drawings of each movement, each (T, 2), m, object's frame.
     """
-    ours, theirs = (np.unique(np.asarray(labels), return_inverse=True)[1] for labels in (found, true))
-    table = np.zeros((ours.max() + 1, theirs.max() + 1))
-    np.add.at(table, (ours, theirs), 1)
-    together = _pairs(table)
-    rows, columns, everything = _pairs(table.sum(axis=1)), _pairs(table.sum(axis=0)), _pairs(np.array(len(ours)))
-    expected = rows * columns / everything if everything else 0.0
-    best = (rows + columns) / 2
-    return 1.0 if best == expected else float((together - expected) / (best - expected))
-
-
-def _pairs(counts: NDArray[np.generic]) -> float:
-    numbers = counts.astype(np.float64)
-    return float((numbers * (numbers - 1) / 2).sum())
-
-
-def score_understanding(understanding: Understanding, truth: GroundTruth) -> Understood:
-    """Compare what was inferred from demonstrations with what they were."""
-    order = tuple(understanding.word_order) == (truth.language.focus_word, truth.language.movement_word)
-    groups = adjusted_rand_index(understanding.labels, truth.movement)
-    return Understood(groups, float((np.asarray(understanding.focus) == truth.focus).mean()), float(order))
-
-
-def count_signs_read(reading: Reading, understanding: Understanding, truth: GroundTruth, request: Request) -> int:
-    """Count the signs of an utterance that were read right, 0 to 2: the movement's and the object's.
-
-    A movement that was found stands for what most of its members show.
-    """
-    members = np.asarray(understanding.labels) == int(np.argmax(reading.movement))
-    shown = np.bincount(truth.movement[members]) if members.any() else np.zeros(1)
-    return int(shown.argmax() == request.movement and shown.any()) + int(np.argmax(reading.focus) == request.focus)
-
-
-class Judge:
-    """Judges paths by the drawings that were demonstrated in a session."""
-
-    def __init__(self, templates: Sequence[Sequence[NDArray[np.float64]]]) -> None:
-        """Take the drawings of each movement, each (T, 2), m, object's frame."""
-        self._templates = templates
-        self._prepared = prepare_templates(templates)
-
-    def judge(self, path: NDArray[np.float64], command: Command) -> Done:
-        """Say whether a path, shape (T, 2), m, table frame, does what a command asks for."""
-        movement, focus = command.request
-        tail, misfit = settled_part(path), WORST
-        if tail is not None:
-            misfit = min(WORST, movement_error(tail - command.objects[focus], self._prepared[movement]))
-        if misfit > TOLERANCE:  # then no comparison with other movements and objects can make it right
-            return Done(False, misfit)
-        performance = performed(path, command.objects, self._templates)
-        return Done((performance.movement, performance.focus) == command.request, misfit)
+    movement, focus = command.request
+    tail, misfit = settled_part(path), WORST
+    if tail is not None:
+        (drawings,) = prepare_templates(templates[movement : movement + 1])
+        misfit = min(WORST, movement_error(tail - command.objects[focus], drawings))
+    if misfit > TOLERANCE:  # then no comparison with other movements and objects can make it right
+        return CommandScore(False, misfit)
+    performance = performed(path, command.objects, templates)
+    return CommandScore((performance.movement, performance.focus) == command.request, misfit)

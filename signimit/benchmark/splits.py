@@ -2,44 +2,33 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.benchmark.casts import Casting, another_style, same_people, strangers, wavering_people
-from signimit.benchmark.commands import Ask, ask_counterfactually, ask_every_pair, ask_unseen_pairs
-from signimit.benchmark.studies.cells import FILLER_SIGNS, FOCUS_SIGNS, MOVEMENT_SIGNS, SYNTHETIC_MOVEMENTS
+from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import UnknownNameError
-from signimit.teaching.composition import SceneSampler
-from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_utterance
+from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
+from signimit.teaching.people.choosing import another_style, strangers, wavering_people
 from signimit.teaching.scenes import sample_scene
+from signimit.teaching.sessions import Asker, Command, Condition, Session, ask_at_random, compose_session
 
+FOCUS_SIGNS = ("1", "2", "3", "0", "6", "5")
+MOVEMENT_SIGNS = ("4", "5", "6", "0", "7", "8", "9", "2")  # the same digit may mean different things as another word
+FILLER_SIGNS = ("7", "8", "9")
+SYNTHETIC_MOVEMENTS = (
+    "triangle up", "triangle down", "circle", "square", "star", "figure eight", "zigzag", "spiral",
+)  # fmt: skip
 CROWDED = 0.25  # times the usual distances between objects
-
-
-@dataclass(frozen=True, kw_only=True)
-class Split:
-    """A kind of sessions.
-
-    Attributes:
-        name: What it is called.
-        change: What differs from the paper's session, in words.
-        language: What is spoken.
-        casting: Who takes part.
-        shown_scenes: Where objects are in demonstrations.
-        asked_scenes: Where objects are in commands.
-        ask: What is asked for.
-    """
-
-    name: str
-    change: str
-    language: Language = PAPER_LANGUAGE
-    casting: Casting = same_people
-    shown_scenes: SceneSampler = sample_scene
-    asked_scenes: SceneSampler = sample_scene
-    ask: Ask = ask_every_pair
+PER_UNSEEN_PAIR = 3  # commands
+FAMILIES = 3  # counterfactual ones of a session
+RECIPE = 1  # changes when the same seed gives another session
+SAMPLES = 16  # drawings of each label by each person
+_WHO, _HOW, _SHOWN, _ASKED, _MORE_HOW, _MORE_SHOWN = range(6)  # independent streams of random numbers
 
 
 def crowded_scene(rng: np.random.Generator, objects: int) -> NDArray[np.float64]:
@@ -62,60 +51,96 @@ def right_scene(rng: np.random.Generator, objects: int) -> NDArray[np.float64]:
     return left_scene(rng, objects) * (-1.0, 1.0)
 
 
+def ask_unseen_pairs(asker: Asker) -> list[Command]:
+    """Ask three times for every pair that was never demonstrated, in random order."""
+    return ask_at_random(asker, sorted(asker.language.held_back) * PER_UNSEEN_PAIR)
+
+
+def ask_counterfactually(asker: Asker) -> list[Command]:
+    """Ask in families of four, in random order.
+
+    A family is a command; the same with one sign changed, once the movement's and once the object's; and the same
+    signs where the objects have changed places, none staying where it was.
+    """
+    commands = [command for family in range(FAMILIES) for command in _ask_family(asker, family)]
+    return [commands[i] for i in asker.rng.permutation(len(commands))]
+
+
+def _ask_family(asker: Asker, family: int) -> list[Command]:
+    language, rng = asker.language, asker.rng
+    first = asker.command(language.requests[int(rng.integers(len(language.requests)))], family)
+    movement, focus = first.request
+    other_movement = (movement + int(rng.integers(1, len(language.movements)))) % len(language.movements)
+    other_focus = (focus + int(rng.integers(1, language.objects))) % language.objects
+    moved = np.roll(first.objects, int(rng.integers(1, language.objects)), axis=0)
+
+    def change_sign(request: Request, word: int) -> Command:
+        fresh = compose_utterance(language, asker.signs, *request, rng)
+        signs = tuple(fresh[w] if w == word else sign for w, sign in enumerate(first.signs))
+        return first._replace(request=request, signs=signs)
+
+    return [
+        first,
+        change_sign(Request(other_movement, focus), language.movement_word),
+        change_sign(Request(movement, other_focus), language.focus_word),
+        first._replace(objects=moved),
+    ]
+
+
 _LARGE = Language(focus_signs=FOCUS_SIGNS, movement_signs=MOVEMENT_SIGNS, movements=SYNTHETIC_MOVEMENTS, repetitions=1)
 _NOT_SHOWN = tuple(pair for pair in _LARGE.requests if sum(pair) % 3)
 _ALL = (
-    Split(name="paper", change="nothing: six of nine pairs shown twice, all nine asked for"),
-    Split(name="unseen-pair", change="only the pairs that were never shown are asked for", ask=ask_unseen_pairs),
-    Split(
+    Condition(name="paper", change="nothing: six of nine pairs shown twice, all nine asked for"),
+    Condition(name="unseen-pair", change="only the pairs that were never shown are asked for", ask=ask_unseen_pairs),
+    Condition(
         name="unseen-scene",
         change="shown in the left half of the table, asked for in the right half",
         shown_scenes=left_scene,
         asked_scenes=right_scene,
     ),
-    Split(
+    Condition(
         name="unseen-style",
         change="the signer asks with larger, faster and more slanted signs than were shown",
-        casting=another_style,
+        choose_people=another_style,
     ),
-    Split(
+    Condition(
         name="unseen-person",
         change="every sign and movement may be another one's of a crowd, and a stranger asks",
-        casting=strangers,
+        choose_people=strangers,
     ),
-    Split(
+    Condition(
         name="word-order",
         change="the movement is signed first, the object second",
         language=replace(PAPER_LANGUAGE, focus_word=1, movement_word=0),
     ),
-    Split(
+    Condition(
         name="filler-word",
         change="a third word between the two means nothing, one of three signs at random",
         language=replace(PAPER_LANGUAGE, filler_signs=FILLER_SIGNS, movement_word=2),
     ),
-    Split(
+    Condition(
         name="many",
         change="8 movements, 6 objects, 16 of 48 pairs shown once, any 16 asked for",
         language=replace(_LARGE, unseen=_NOT_SHOWN),
     ),
-    Split(name="few", change="every pair is shown once only", language=replace(PAPER_LANGUAGE, repetitions=1)),
-    Split(name="noisy", change="a slow waver in all that is drawn", casting=wavering_people),
-    Split(
+    Condition(name="few", change="every pair is shown once only", language=replace(PAPER_LANGUAGE, repetitions=1)),
+    Condition(name="noisy", change="a slow waver in all that is drawn", choose_people=wavering_people),
+    Condition(
         name="ambiguous",
         change="objects at a quarter of the usual distances, within each other's drawings",
         shown_scenes=crowded_scene,
         asked_scenes=crowded_scene,
     ),
-    Split(
+    Condition(
         name="counterfactual",
         change="asked in families: a command, one sign changed, the other one changed, the objects permuted",
         ask=ask_counterfactually,
     ),
 )
-SPLITS: dict[str, Split] = {split.name: split for split in _ALL}
+SPLITS: dict[str, Condition] = {split.name: split for split in _ALL}
 
 
-def get_split(name: str) -> Split:
+def get_split(name: str) -> Condition:
     """Return the split of that name.
 
     Raises:
@@ -126,10 +151,47 @@ def get_split(name: str) -> Split:
     return SPLITS[name]
 
 
-def choose_splits(names: Iterable[str]) -> tuple[Split, ...]:
+def choose_splits(names: Iterable[str]) -> tuple[Condition, ...]:
     """Return the splits of these names, or all if none is named.
 
     Raises:
         UnknownNameError: If there is none of a name.
     """
     return tuple(get_split(name) for name in dict.fromkeys(names)) or tuple(SPLITS.values())
+
+
+def compose_split_session(split: Condition, seed: int) -> Session:
+    """Compose a session; the same split and seed give the same one, up to the last digits of other processors."""
+    people = split.choose_people(split.language, SAMPLES, _stream(seed, _WHO), _stream(seed, _HOW))
+    return compose_session(split, seed, people, _stream(seed, _SHOWN), asking_rng=_stream(seed, _ASKED))
+
+
+def with_more_demonstrations(session: Session, count: int) -> Session:
+    """Let the same people show more, until there are at least ``count`` demonstrations; the first are the session's."""
+    split, seed, language = session.condition, session.seed, session.condition.language
+    missing = count - len(session.demonstrations)
+    if missing <= 0:
+        return session
+    more = replace(language, repetitions=-(-missing // len(language.seen)))
+    samples = 2 * -(-missing // min(len(language.movements), language.objects)) + SAMPLES
+    people = split.choose_people(more, samples, _stream(seed, _WHO), _stream(seed, _MORE_HOW))
+    rng = _stream(seed, _MORE_SHOWN)
+    added, meant = compose_demonstrations(more, people.signs, people.movements, rng, split.shown_scenes)
+    truth = session.truth
+    templates = tuple(a + b for a, b in zip(truth.templates, meant.templates, strict=True))
+    movement, focus = (np.concatenate(pair) for pair in ((truth.movement, meant.movement), (truth.focus, meant.focus)))
+    return replace(
+        session,
+        demonstrations=DemonstrationSet([*session.demonstrations, *added]),
+        truth=GroundTruth(language, movement, focus, templates),
+    )
+
+
+def entry_stream(session: Session) -> np.random.Generator:
+    """Return the generator of the entry that takes part in a session; what it was seeded with does not tell which."""
+    name = f"{RECIPE} {session.seed} {session.condition.name}".encode()
+    return np.random.default_rng(int.from_bytes(hashlib.sha256(name).digest()))
+
+
+def _stream(seed: int, which: int) -> np.random.Generator:
+    return np.random.default_rng([RECIPE, seed, which])

@@ -1,17 +1,58 @@
-"""Scores of many sessions, with 95 % intervals that know that commands of one session share its luck."""
+"""Shares and means of scores with 95 % intervals; commands of one session share its luck, and the intervals know."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.stats import t
+from scipy.special import stdtrit
 
-from signimit.intervals import wilson_interval
 from signimit.io.safe_files import Record
+
+_Z = 1.959963984540054  # standard normal quantile of 0.975
+
+
+def wilson_interval(count: float, total: float) -> tuple[float, float]:
+    """Compute Wilson's 95 % interval of a share (doi:10.1080/01621459.1927.10502953); (0, 1) of none."""
+    if not total:
+        return 0.0, 1.0
+    share, spread = count / total, _Z**2 / total
+    centre = (share + spread / 2) / (1 + spread)
+    half = math.sqrt(share * (1 - share) * spread + spread**2 / 4) / (1 + spread)
+    return max(0.0, centre - half), min(1.0, centre + half)
+
+
+@dataclass(frozen=True)
+class Share:
+    """A count out of a total.
+
+    Attributes:
+        count: How many.
+        total: Of how many.
+    """
+
+    count: int
+    total: int
+
+    @classmethod
+    def of(cls, verdicts: Iterable[bool]) -> Share:
+        """Count what is true."""
+        known = [bool(v) for v in verdicts]
+        return cls(sum(known), len(known))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's 95 % interval of the share; (0, 1) of none."""
+        return wilson_interval(self.count, self.total)
+
+    def __str__(self) -> str:
+        """Say e.g. ``36 of 36 (95 % interval 0.90 to 1.00)``."""
+        low, high = self.interval
+        return f"{self.count} of {self.total} (95 % interval {low:.2f} to {high:.2f})"
 
 
 @dataclass(frozen=True)
@@ -19,7 +60,7 @@ class Estimate:
     """A mean of scores.
 
     Attributes:
-        mean: It.
+        mean: The mean.
         low: Lower end of its 95 % interval.
         high: Upper end.
         total: Sum of the scores.
@@ -34,7 +75,7 @@ class Estimate:
 
 
 class Stage(NamedTuple):
-    """Something that is scored.
+    """A stage of a session that is scored.
 
     Attributes:
         title: Head of its column.
@@ -107,7 +148,7 @@ def estimate_misfit(sums: ArrayLike, counts: ArrayLike) -> Estimate:
     mean, clusters = float(total.sum() / count.sum()), len(total)
     low, high = 0.0, 1.0
     if clusters > 1:
-        half = float(t.ppf(0.975, clusters - 1)) * float(np.sqrt(_variance_of_mean(total, count)))
+        half = float(stdtrit(clusters - 1, 0.975)) * float(np.sqrt(_variance_of_mean(total, count)))
         low, high = max(0.0, mean - half), min(1.0, mean + half)
     return Estimate(mean, low, high, float(total.sum()), int(count.sum()))
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from signimit.benchmark.studies.policies import Lesson
+from signimit.benchmark.studies.policies import ShownMovement
 from signimit.exceptions import MissingDependencyError
 from signimit.policies import run_policy
 from signimit.policies.base import Array, Policy
@@ -30,7 +30,7 @@ REPRODUCTION = ("#d7301f", "#08589e", "#6a3d9a", "#b15928")
 DEMONSTRATION, FIELD = "#bdbdbd", "#4d4d4d"
 
 
-def draw_portraits(policies: Sequence[Policy], lessons: Sequence[Lesson]) -> Figure:
+def draw_portraits(policies: Sequence[Policy], lessons: Sequence[ShownMovement]) -> Figure:
     """Draw each policy: its vector field, its demonstrations, and reproductions from four corners.
 
     Args:
@@ -52,7 +52,7 @@ def draw_portraits(policies: Sequence[Policy], lessons: Sequence[Lesson]) -> Fig
     return figure
 
 
-def _draw_portrait(panel: Axes, policy: Policy, lesson: Lesson) -> None:
+def _draw_portrait(panel: Axes, policy: Policy, lesson: ShownMovement) -> None:
     for path in lesson.paths:
         panel.plot(*path.T, color=DEMONSTRATION, linewidth=0.8, zorder=1)
     side = np.linspace(-HALF_VIEW, HALF_VIEW, ARROWS)

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from signimit.benchmark.studies.scaling import CODES, STEPS, Measurement
-from signimit.benchmark.studies.scoring import Calibration
-from signimit.benchmark.studies.tables import LessonRow, Row
+from signimit.benchmark.studies.tables import Calibration, LessonRow, Row
 from signimit.exceptions import MissingDependencyError
 
 try:

@@ -1,4 +1,4 @@
-"""Sessions from strokes: what the imitator sees, and separately what nobody tells it (paper, section II-A).
+"""Demonstrations composed from strokes, and separately their ground truth (paper, section II-A).
 
 The `GroundTruth` is for evaluators. Nothing in a `DemonstrationSet` leads to it.
 """
@@ -15,18 +15,14 @@ from numpy.typing import NDArray
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke, StrokeLibrary
-from signimit.teaching.languages import PAPER_LANGUAGE as PAPER_LANGUAGE
-from signimit.teaching.languages import Language as Language
-from signimit.teaching.languages import Request as Request
+from signimit.teaching.languages import Language, Request
 from signimit.teaching.people.glyphs import GOAL_LABELS
-from signimit.teaching.scenes import drawn_path, reaching_path, sample_times
-from signimit.teaching.scenes import sample_hand as sample_hand
-from signimit.teaching.scenes import sample_scene as sample_scene
-from signimit.teaching.stroke_sampler import StrokeSampler, as_sampler
+from signimit.teaching.scenes import drawn_path, reaching_path, sample_hand, sample_scene, sample_times
+from signimit.teaching.stroke_sampler import StrokeSource, as_source
 
 HALF_SIZE = (0.09, 0.12)  # m, half the larger side of a drawn movement
 LOOPS = 2  # how often a demonstrator draws the movement
-Strokes = StrokeLibrary | StrokeSampler
+Strokes = StrokeLibrary | StrokeSource
 SceneSampler = Callable[[np.random.Generator, int], NDArray[np.float64]]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
@@ -91,22 +87,42 @@ def compose_demonstrations(
     Raises:
         UnknownNameError: If a library lacks a sign or a movement of the language.
     """
-    signs, movements = as_sampler(signs), as_sampler(movements)
+    signs, movements = as_source(signs), as_source(movements)
     requests = [
         language.seen[i % len(language.seen)] for i in rng.permutation(len(language.seen) * language.repetitions)
     ]
     templates: list[list[NDArray[np.float64]]] = [[] for _ in language.movements]
     demonstrations = []
-    for movement, focus in requests:
-        utterance = compose_utterance(language, signs, movement, focus, rng)
-        objects = scenes(rng, language.objects)
-        loops = compose_loops(language, movements, movement, rng)
-        templates[movement] += loops
-        hand = compose_path(sample_hand(rng), [loop + objects[focus] for loop in loops])
-        demonstrations.append(Demonstration(utterance, objects, hand, sample_times(len(hand))))
+    for request in requests:
+        demonstration, loops = compose_demonstration(language, signs, movements, request, rng, scenes)
+        demonstrations.append(demonstration)
+        templates[request.movement] += loops
     movement_of, focus_of = np.array(requests, dtype=np.int64).T
     truth = GroundTruth(language, movement_of, focus_of, tuple(tuple(t) for t in templates))
     return DemonstrationSet(demonstrations), truth
+
+
+def compose_demonstration(
+    language: Language,
+    signs: Strokes,
+    movements: Strokes,
+    request: Request,
+    rng: np.random.Generator,
+    scenes: SceneSampler = sample_scene,
+) -> tuple[Demonstration, list[NDArray[np.float64]]]:
+    """Make one demonstration: arguments as of `compose_demonstrations`.
+
+    Returns:
+        The demonstration, and the loops that were drawn in it, each (T, 2), m, object's frame.
+
+    Raises:
+        UnknownNameError: If the strokes lack a sign or a movement.
+    """
+    utterance = compose_utterance(language, signs, *request, rng)
+    objects = scenes(rng, language.objects)
+    loops = compose_loops(language, movements, request.movement, rng)
+    hand = compose_path(sample_hand(rng), [loop + objects[request.focus] for loop in loops])
+    return Demonstration(utterance, objects, hand, sample_times(len(hand))), loops
 
 
 def compose_utterance(
@@ -124,13 +140,13 @@ def compose_utterance(
     for name, value, count in (("movement", movement, len(language.movements)), ("focus", focus, language.objects)):
         if not 0 <= value < count:
             raise InvalidInputError(name, f"an index below {count}", f"{value}")
-    deck = as_sampler(signs)
+    source = as_source(signs)
     words = [language.focus_signs[focus]] * language.words
     if language.filler_signs:
         words = [language.filler_signs[int(rng.integers(len(language.filler_signs)))]] * language.words
     words[language.focus_word] = language.focus_signs[focus]
     words[language.movement_word] = language.movement_signs[movement]
-    return tuple(deck.draw(word, rng)[0].points for word in words)
+    return tuple(source.draw(word, rng).points for word in words)
 
 
 def compose_loops(
@@ -144,7 +160,7 @@ def compose_loops(
     label = language.movements[movement]
     goal = label in GOAL_LABELS
     half_size = rng.uniform(*HALF_SIZE)
-    strokes = as_sampler(movements).draw(label, rng, 1 if goal else LOOPS)
+    strokes = as_source(movements).draw_several(label, rng, 1 if goal else LOOPS)
     return [drawn_path(stroke, half_size, end_at_object=goal) for stroke in strokes]
 
 
@@ -165,17 +181,17 @@ def movement_templates(
     Returns:
         For each movement its drawings, each (T, 2), m, object's frame.
     """
-    deck = as_sampler(movements)
+    source = as_source(movements)
     drawings = [
-        [compose_loops(language, deck, m, rng)[0] for _ in range(count)] for m in range(len(language.movements))
+        [compose_loops(language, source, m, rng)[0] for _ in range(count)] for m in range(len(language.movements))
     ]
     return tuple(tuple(drawing) for drawing in drawings)
 
 
 def compose_prototypes(language: Language, signs: Strokes, rng: np.random.Generator) -> tuple[Stroke, ...]:
     """Let the interactant draw the language's prototype signs once."""
-    deck = as_sampler(signs)
-    return tuple(deck.draw(label, rng)[0] for label in language.prototypes)
+    source = as_source(signs)
+    return tuple(source.draw(label, rng) for label in language.prototypes)
 
 
 def _read_only(array: NDArray[Scalar]) -> NDArray[Scalar]:

@@ -79,6 +79,12 @@ class Language:
         return len(self.focus_signs)
 
     @property
+    def signs(self) -> tuple[str, ...]:
+        """Labels of all signs that are made in it or span its sign space, once each."""
+        words = (*self.focus_signs, *self.movement_signs, *self.filler_signs, *self.prototypes)
+        return tuple(dict.fromkeys(words))
+
+    @property
     def requests(self) -> tuple[Request, ...]:
         """Everything that can be asked for, movement by movement."""
         return tuple(Request(m, f) for m in range(len(self.movements)) for f in range(self.objects))

@@ -1,8 +1,9 @@
-"""Decks: strokes dealt like shuffled cards, so that none comes twice while an unused one is left."""
+"""Random strokes of a label, out of a library."""
 
 from __future__ import annotations
 
 from collections import defaultdict
+from typing import Protocol
 
 import numpy as np
 
@@ -10,22 +11,43 @@ from signimit.exceptions import UnknownNameError
 from signimit.strokes import Stroke, StrokeLibrary
 
 
-class StrokeSampler:
-    """Deals the strokes of a library. Share one deck among all that happens in a session.
+class StrokeSource(Protocol):
+    """Makes strokes by label: a sampler of a library, or a synthetic `signimit.teaching.people.Person`."""
 
-    The order is decided by the generators handed to `deal`, nothing else.
+    def draw(self, label: str, rng: np.random.Generator) -> Stroke:
+        """Make a stroke; ``rng`` decides which."""
+        ...
+
+    def draw_several(self, label: str, rng: np.random.Generator, count: int) -> tuple[Stroke, ...]:
+        """Make so many strokes, all by one writer."""
+        ...
+
+
+class StrokeSampler:
+    """Draws strokes of a library without replacement: none comes twice while an unused one is left.
+
+    Share one sampler among all that happens in a session. The order is decided by the generators handed to `draw`,
+    nothing else.
     """
 
     def __init__(self, library: StrokeLibrary) -> None:
-        """Put the library's strokes in piles, one for each label and writer."""
+        """Note which strokes there are of each label and writer."""
         self.library = library
-        self._piles: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
+        self._all: dict[str, dict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
         for i, (label, writer) in enumerate(zip(library.labels, library.writers, strict=True)):
-            self._piles[label][writer].append(i)
-        self._unused = {label: {w: list(p) for w, p in piles.items()} for label, piles in self._piles.items()}
+            self._all[label][writer].append(i)
+        self._unused = {label: {w: list(numbers) for w, numbers in by.items()} for label, by in self._all.items()}
 
-    def draw(self, label: str, rng: np.random.Generator, count: int = 1) -> tuple[Stroke, ...]:
-        """Deal strokes of one label, all by one writer.
+    def draw(self, label: str, rng: np.random.Generator) -> Stroke:
+        """Draw a stroke of a label.
+
+        Raises:
+            UnknownNameError: If the library has no stroke with that label.
+        """
+        return self.draw_several(label, rng, 1)[0]
+
+    def draw_several(self, label: str, rng: np.random.Generator, count: int) -> tuple[Stroke, ...]:
+        """Draw strokes of a label, all by one writer.
 
         A writer with fewer than ``count`` unused strokes is taken only if all are so; then used strokes come again.
 
@@ -33,21 +55,47 @@ class StrokeSampler:
             UnknownNameError: If the library has no stroke with that label.
         """
         if label not in self._unused:
-            raise UnknownNameError("label", label, sorted(self._piles))
+            raise UnknownNameError("label", label, sorted(self._all))
         unused = self._unused[label]
-        left = np.array([len(pile) if len(pile) >= count else 0 for pile in unused.values()], dtype=np.float64)
+        left = np.array([len(numbers) if len(numbers) >= count else 0 for numbers in unused.values()], dtype=np.float64)
         if not left.any():
-            left = np.array([max(len(pile), 1e-9) for pile in unused.values()])
+            left = np.array([max(len(numbers), 1e-9) for numbers in unused.values()])
         writer = list(unused)[rng.choice(len(left), p=left / left.sum())]
-        return tuple(self.library[self._take(label, writer, rng)] for _ in range(count))
+        drawn = []
+        for _ in range(count):
+            if not unused[writer]:
+                unused[writer] += self._all[label][writer]
+            drawn.append(self.library[unused[writer].pop(int(rng.integers(len(unused[writer]))))])
+        return tuple(drawn)
 
-    def _take(self, label: str, writer: str, rng: np.random.Generator) -> int:
-        pile = self._unused[label][writer]
-        if not pile:
-            pile += self._piles[label][writer]
-        return pile.pop(int(rng.integers(len(pile))))
+
+class ReplacingSampler:
+    """Draws strokes of a library with replacement.
+
+    It remembers nothing, so that the generator alone decides a stroke, whatever was drawn before.
+    """
+
+    def __init__(self, library: StrokeLibrary) -> None:
+        """Keep the strokes by label."""
+        self._strokes: dict[str, list[Stroke]] = defaultdict(list)
+        for label, stroke in zip(library.labels, library, strict=True):
+            self._strokes[label].append(stroke)
+
+    def draw(self, label: str, rng: np.random.Generator) -> Stroke:
+        """Draw a stroke of a label.
+
+        Raises:
+            UnknownNameError: If the library has no stroke with that label.
+        """
+        if label not in self._strokes:
+            raise UnknownNameError("label", label, sorted(self._strokes))
+        return self._strokes[label][int(rng.integers(len(self._strokes[label])))]
+
+    def draw_several(self, label: str, rng: np.random.Generator, count: int) -> tuple[Stroke, ...]:
+        """Draw so many strokes of a label, by any writers."""
+        return tuple(self.draw(label, rng) for _ in range(count))
 
 
-def as_sampler(strokes: StrokeLibrary | StrokeSampler) -> StrokeSampler:
-    """Return a deck as it is, and a fresh one for a library."""
-    return strokes if isinstance(strokes, StrokeSampler) else StrokeSampler(strokes)
+def as_source(strokes: StrokeLibrary | StrokeSource) -> StrokeSource:
+    """Return a `StrokeSampler` of a library, and any other source as it is."""
+    return StrokeSampler(strokes) if isinstance(strokes, StrokeLibrary) else strokes

@@ -130,9 +130,7 @@ def test_utterances_have_the_order_and_the_fillers_of_the_language() -> None:
     assert observation["signs"].shape == (3, 64, 2)
     assert observation["objects"].shape == (4, 2)
     words = ("square", "8", "9", "spiral")
-    shown = [
-        [arm.people.interactant.draw(word, np.random.default_rng(seed)).points for seed in range(3)] for word in words
-    ]
+    shown = [[arm.people.signs.draw(word, np.random.default_rng(seed)).points for seed in range(3)] for word in words]
     nearest = [
         min(
             range(4),

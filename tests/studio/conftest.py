@@ -17,7 +17,8 @@ for _package in ("fastapi", "uvicorn", "websockets"):
     pytest.importorskip(_package, reason="the studio needs signimit[studio]")
 playwright = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright")
 
-from signimit.teaching.composition import PAPER_LANGUAGE, compose_loops, compose_path  # noqa: E402
+from signimit.teaching.composition import compose_loops, compose_path  # noqa: E402
+from signimit.teaching.languages import PAPER_LANGUAGE  # noqa: E402
 from signimit.teaching.people import Person, synthetic_library  # noqa: E402
 from signimit_envs.studio.web.serving import StudioPlan, running_studio  # noqa: E402
 

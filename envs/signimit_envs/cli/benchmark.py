@@ -8,9 +8,9 @@ from typing import Literal
 
 from tqdm import tqdm
 
-from signimit.benchmark.engines import Engine, local_engine
-from signimit.benchmark.registry import entrant_names, refer_to
+from signimit.benchmark.entries import ENTRANTS, refer_to
 from signimit.benchmark.results import ResultFile, read_summaries, run_missing, write_summary
+from signimit.benchmark.running import Engine, local_engine
 from signimit.benchmark.shipped_sessions import SESSIONS
 from signimit.benchmark.splits import choose_splits
 from signimit.benchmark.tables import MANY, hours_for, leaderboard, overview
@@ -49,7 +49,7 @@ def run_entries(
         raise InvalidInputError("sessions", "at least 1, from seed 0 on", f"{sessions} from seed {first_seed}")
     seeds = range(first_seed, first_seed + sessions)
     names = [split.name for split in choose_splits(splits)]
-    chosen = [refer_to(name) for given in entry for name in (entrant_names() if given == "all" else (given,))]
+    chosen = [refer_to(name) for given in entry for name in (ENTRANTS if given == "all" else (given,))]
     runner = _engine(engine, scheduler, workers or os.cpu_count() or 1, batch)
     for reference in dict.fromkeys(chosen):
         file = ResultFile(out, reference)

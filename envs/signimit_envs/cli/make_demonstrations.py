@@ -8,9 +8,9 @@ import numpy as np
 
 from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
-from signimit.teaching.people.casting import Source, cast_people
+from signimit.teaching.people.choosing import Source, choose_people
 from signimit_envs.sessions.report import truth_text
-from signimit_envs.sessions.session import SessionPlan, compose_session
+from signimit_envs.sessions.session import SessionPlan
 
 
 def main(
@@ -36,14 +36,14 @@ def main(
     """
     plan = SessionPlan(seed=seed)
     rng = np.random.default_rng([seed, 1])
-    cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
-    session = compose_session(plan, cast)
+    people = choose_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
+    session = plan.compose(people)
     labels = plan.language.prototypes
-    prototypes = StrokeLibrary(session.prototypes, labels, (cast.names[0],) * len(labels), cast.signs.source)
+    prototypes = StrokeLibrary(session.prototypes, labels, (people.names[0],) * len(labels), people.signs.source)
     with whole_files(out) as folder:
         session.demonstrations.save(folder / "demonstrations.npz")
         prototypes.save(folder / "prototypes.npz")
-        cast.signs.save(folder / "signs.npz")
+        people.signs.save(folder / "signs.npz")
         (folder / "truth.json").write_text(truth_text(session), encoding="utf-8")
     print(f"{len(session.demonstrations)} demonstrations are in {out / 'demonstrations.npz'}. Next:")
     print(f"  python -m signimit learn {out / 'demonstrations.npz'} --prototypes {out / 'prototypes.npz'}")

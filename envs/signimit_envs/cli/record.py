@@ -9,10 +9,10 @@ import numpy as np
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
-from signimit.teaching.people.casting import cast_people
+from signimit.teaching.people.choosing import choose_people
 from signimit_envs.recording import record_reproductions, save_recording
 from signimit_envs.recording.formats import check_vacant_file
-from signimit_envs.sessions.session import SessionPlan, compose_session
+from signimit_envs.sessions.session import SessionPlan
 
 
 def main(
@@ -37,7 +37,7 @@ def main(
     """
     check_vacant_file(out, overwrite)
     plan = SessionPlan(seed=seed, attempts=attempts, seconds=seconds, method=method, policy=policy)
-    session = compose_session(plan, cast_people(plan.language, np.random.default_rng([seed, 1])))
+    session = plan.compose(choose_people(plan.language, np.random.default_rng([seed, 1])))
     model = learn(session.demonstrations, session.prototypes, method, policy, seed)
     recording = record_reproductions(model, session.commands, seconds, plan.language)
     save_recording(out, recording)

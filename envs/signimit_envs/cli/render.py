@@ -12,7 +12,7 @@ from signimit.explanation import object_name
 from signimit.learning import ImitationModel
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.scenes import sample_hand, sample_scene
-from signimit_envs.sessions.session import Scene, answer_signs
+from signimit_envs.sessions.session import answer_signs
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.video.films import film_shots
 from signimit_envs.video.mp4 import write_video
@@ -50,10 +50,10 @@ def main(
     if objects is not None and len(objects) != 2 * count:
         raise InvalidInputError("objects", f"x and y of {count} objects", f"{len(objects)} numbers")
     places = sample_scene(rng, count) if objects is None else np.reshape(objects, (count, 2))
-    scene = Scene(places, sample_hand(rng) if hand is None else np.array(hand))
+    start = sample_hand(rng) if hand is None else np.array(hand)
     strokes = [pick(library, word, sample) for word in words]
     with closing(TabletopHandEnv(objects=count)) as env:
-        answer = answer_signs(learned, strokes, scene, seconds, env)
+        answer = answer_signs(learned, strokes, places, start, seconds, env)
     understood = f"movement {answer.movement} about {object_name(answer.focus)}, confidence {answer.confidence:.2f}"
     print(f"Understood: {understood}.")
     captions = (f"The signs {' '.join(words)} are made", f"The robot understood {understood}")

@@ -9,7 +9,7 @@ import numpy as np
 
 from signimit.io.safe_files import whole_files
 from signimit.policies import DEFAULT_POLICY
-from signimit.teaching.people.casting import Source, cast_people
+from signimit.teaching.people.choosing import Source, choose_people
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.sessions.report import inference_lines, session_report, session_table
 from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
@@ -56,12 +56,12 @@ def main(
 
     plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
     rng = np.random.default_rng([seed, 1])
-    cast = cast_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
-    print(f"The signs are made by {cast.names[0]}, the movements by {cast.names[1]}.")
+    people = choose_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
+    print(f"The signs are made by {people.names[0]}, the movements by {people.names[1]}.")
     with whole_files(out) as folder:
-        result = run_session(plan, cast, lambda commands: tqdm(commands, "obeying", unit="command"))
+        result = run_session(plan, people, lambda commands: tqdm(commands, "obeying", unit="command"))
         print(f"\n{result.model.summary()}\n\n{inference_lines(result)}\n\n{session_table(result)}\n")
-        text = json.dumps(session_report(result, cast), indent=1, allow_nan=False)
+        text = json.dumps(session_report(result, people), indent=1, allow_nan=False)
         (folder / "results.json").write_text(text + "\n", encoding="utf-8")
         write_figures(result, folder)
         if video:

@@ -6,12 +6,13 @@ import csv
 import itertools
 import json
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from signimit.benchmark.statistics import wilson_interval
+from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError
-from signimit.intervals import wilson_interval
 from signimit.io.safe_files import replaced_file
 
 REGION = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
@@ -47,15 +48,9 @@ def with_tables(text: str, results: Path) -> str:
         start, name, end = match.groups()
         if name not in TABLES:
             raise InvalidInputError("README: table", ", ".join(TABLES), repr(name))
-        return start + "\n".join(TABLES[name](results)) + "\n" + end
+        return start + TABLES[name](results) + "\n" + end
 
     return REGION.sub(replaced, text)
-
-
-def table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> list[str]:
-    """Return a Markdown table, line by line."""
-    lines = [head, ["---"] * len(head), *rows]
-    return ["| " + " | ".join(map(str, line)) + " |" for line in lines]
 
 
 def read_json(path: Path) -> Any:
@@ -69,10 +64,10 @@ def read_csv(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def table_of_page(path: Path) -> list[str]:
-    """Return the first Markdown table of a page, line by line."""
+def table_of_page(path: Path) -> str:
+    """Return the first Markdown table of a page."""
     lines = itertools.dropwhile(lambda line: not line.startswith("|"), path.read_text(encoding="utf-8").splitlines())
-    return list(itertools.takewhile(lambda line: line.startswith("|"), lines))
+    return "\n".join(itertools.takewhile(lambda line: line.startswith("|"), lines))
 
 
 def share(count: int, total: int) -> str:
@@ -81,14 +76,14 @@ def share(count: int, total: int) -> str:
     return f"{100 * count / total:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
 
 
-def checker(results: Path) -> list[str]:
+def checker(results: Path) -> str:
     """Sessions of real people, as another program than ours makes and judges them."""
     rows = []
     for name, what in CHECKED.items():
         found = read_json(results / "checker" / f"{name}.json")
         right, obeyed = (_counted(found[key]) for key in ("all inferences right", "obeyed"))
         rows.append((what, right[1], right[0], share(*obeyed)))
-    return table(("sessions", "", "every inference right", "commands obeyed [95 %]"), rows)
+    return markdown_table(("sessions", "", "every inference right", "commands obeyed [95 %]"), rows)
 
 
 def _counted(text: str) -> tuple[int, int]:
@@ -96,7 +91,7 @@ def _counted(text: str) -> tuple[int, int]:
     return int(count), int(total)
 
 
-def sessions(results: Path) -> list[str]:
+def sessions(results: Path) -> str:
     """Built-in sessions on the physics, of the paper's learner and of ours."""
     rows = []
     for method in ("paper", "joint"):
@@ -104,18 +99,18 @@ def sessions(results: Path) -> list[str]:
         stages = ("grouping right", "all foci right", "word order right")
         counts = [f"{found[stage]['count']} of {found[stage]['total']}" for stage in stages]
         rows.append((f"`{method}`", *counts, share(found["obeyed"]["count"], found["obeyed"]["total"])))
-    return table(("", "grouping", "focus", "word order", "obeyed [95 %]"), rows)
+    return markdown_table(("", "grouping", "focus", "word order", "obeyed [95 %]"), rows)
 
 
-def policies(results: Path) -> list[str]:
+def policies(results: Path) -> str:
     """Policies on the same lessons of real people."""
-    lines = table_of_page(results / "policies" / "real" / "table.md")
+    lines = table_of_page(results / "policies" / "real" / "table.md").splitlines()
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     wanted = [cells[0].index(name) for name in ("kind", "drawn", "misfit", "corner gap", "detour", "back after shove")]
-    return table([cells[0][i] for i in wanted], [[row[i] for i in wanted] for row in cells[2:]])
+    return markdown_table([cells[0][i] for i in wanted], [[row[i] for i in wanted] for row in cells[2:]])
 
 
-def study(results: Path) -> list[str]:
+def study(results: Path) -> str:
     """Learners and baselines: sessions with every inference right, by people and condition."""
     rows = read_csv(results / "study" / "cells.csv")
     methods = list(dict.fromkeys(row["method"] for row in rows))
@@ -127,24 +122,24 @@ def study(results: Path) -> list[str]:
         shares = [f"{100 * sum(n for n, _ in c) / sum(of for _, of in c):.0f}" for c in counts.values()]
         cells = len({r["cell"] for r in mine})
         lines.append((f"{people}, {condition}", cells, f"**{shares[0]}**", *shares[1:]))
-    return table(("%", "cells", *methods), lines)
+    return markdown_table(("%", "cells", *methods), lines)
 
 
-def signs(results: Path) -> list[str]:
+def signs(results: Path) -> str:
     """Signs read on their own, by method."""
     rows = read_csv(results / "study" / "signs.csv")
     methods = list(dict.fromkeys(row["method"] for row in rows))
     right = {(*_quiz(row), row["method"]): share(int(row["right"]), int(row["asked"])) for row in rows}
     kinds = dict.fromkeys(map(_quiz, rows))
     lines = [(*kind, *(right[(*kind, method)] for method in methods)) for kind in kinds]
-    return table(("signs", "examples of each", "signers", *methods), lines)
+    return markdown_table(("signs", "examples of each", "signers", *methods), lines)
 
 
 def _quiz(row: dict[str, str]) -> tuple[str, str, str]:
     return row["signs"], row["shown"], row["signers"]
 
 
-def asking(results: Path) -> list[str]:
+def asking(results: Path) -> str:
     """How many demonstrations it takes by what is asked for."""
     facts = read_json(results / "study" / "asking.json")
     needed = next(value for key, value in facts.items() if key.startswith("demonstrations until"))
@@ -152,10 +147,10 @@ def asking(results: Path) -> list[str]:
     count = {(cell, strategy): number for cell, strategy, number in needed}
     cells = dict.fromkeys(cell for cell, _, _ in needed)
     rows = [(cell, *(count[cell, s] or "more than were shown" for s in strategies)) for cell in cells]
-    return table(("people, movements x objects", *strategies), rows)
+    return markdown_table(("people, movements x objects", *strategies), rows)
 
 
-def growth(results: Path) -> list[str]:
+def growth(results: Path) -> str:
     """What learning costs by the number of demonstrations."""
     rows = [row for row in read_csv(results / "study" / "scaling.csv") if row["step"] == "learning"]
     cost = {(int(r["demonstrations"]), r["code"]): (float(r["processor_seconds"]), float(r["megabytes"])) for r in rows}
@@ -165,23 +160,25 @@ def growth(results: Path) -> list[str]:
         for n in counts
     ]
     head = ("demonstrations", "processor s, `fast`", "without", "MB, `fast`", "without")
-    return table(head, lines)
+    return markdown_table(head, lines)
 
 
-def benchmark(results: Path) -> list[str]:
+def benchmark(results: Path) -> str:
     """The leaderboard's first table."""
     return table_of_page(results / "benchmark" / "README.md")
 
 
-def throughput(results: Path) -> list[str]:
+def throughput(results: Path) -> str:
     """Many reproductions at once beside one at a time."""
     head = ("at once", "threads", "reproductions a second", "least of all turns", "the same by computing time")
     rows = read_json(results / "throughput" / "throughput.json")["batches"]
     times = ("faster", "lowest", "computing")
-    return table(head, [(r["batch"], r["threads"] or "all", *(f"{r[name]:.1f} x" for name in times)) for r in rows])
+    return markdown_table(
+        head, [(r["batch"], r["threads"] or "all", *(f"{r[name]:.1f} x" for name in times)) for r in rows]
+    )
 
 
-TABLES: dict[str, Callable[[Path], list[str]]] = {
+TABLES: dict[str, Callable[[Path], str]] = {
     "checker": checker, "sessions": sessions, "policies": policies, "study": study, "signs": signs,
     "asking": asking, "growth": growth, "benchmark": benchmark, "throughput": throughput,
 }  # fmt: skip

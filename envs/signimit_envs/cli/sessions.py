@@ -10,7 +10,7 @@ import numpy as np
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.policies import DEFAULT_POLICY
-from signimit.teaching.people.casting import Source, cast_people
+from signimit.teaching.people.choosing import Source, choose_people
 from signimit_envs.sessions.many_sessions import SessionOutcome, session_outcome, study_report, study_table
 from signimit_envs.sessions.session import SessionPlan, run_session
 
@@ -47,8 +47,8 @@ def main(
     with whole_files(out) as folder:
         for seed in tqdm(range(first_seed, first_seed + sessions), "sessions"):
             plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
-            cast = cast_people(plan.language, np.random.default_rng([seed, 1]), Source(signs), Source(movements))
-            outcomes.append(session_outcome(run_session(plan, cast)))
+            people = choose_people(plan.language, np.random.default_rng([seed, 1]), Source(signs), Source(movements))
+            outcomes.append(session_outcome(run_session(plan, people)))
         print(study_table(outcomes))
         text = json.dumps(study_report(outcomes, method, policy), indent=1)
         (folder / "sessions.json").write_text(text + "\n", encoding="utf-8")

@@ -4,36 +4,33 @@ from __future__ import annotations
 
 import json
 import os
-import platform
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import scipy
 from tqdm import tqdm
 
-import signimit
-from signimit.benchmark.studies.asking import asking_cells, run_lessons
-from signimit.benchmark.studies.cells import Cell, People, study_cells
+from signimit.benchmark.results import installed_versions
+from signimit.benchmark.statistics import wilson_interval
+from signimit.benchmark.studies.asking import asking_conditions, run_lessons
+from signimit.benchmark.studies.conditions import Recordings, study_conditions
 from signimit.benchmark.studies.left_out_people import FoldRow, leave_people_out
-from signimit.benchmark.studies.records import OURS, Record, Run, read_records, run_session, run_sessions
-from signimit.benchmark.studies.scoring import calibrate
+from signimit.benchmark.studies.running import OURS, Run, run_session, run_sessions
 from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quizzes
 from signimit.benchmark.studies.tables import (
     LessonRow,
     Row,
     beaten_cells,
+    calibrate,
     demonstrations_needed,
-    markdown,
+    shares_table,
     tabulate,
     tabulate_lessons,
     write_csv,
 )
 from signimit.exceptions import InvalidInputError
-from signimit.intervals import wilson_interval
-from signimit.io.safe_files import whole_files
+from signimit.io.safe_files import Record, read_records, whole_files
 from signimit.strokes import StrokeLibrary
+from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import command_text
 from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
 
@@ -64,19 +61,19 @@ def cells(
     """
     from signimit.plots.studies import draw_cells
 
-    people = load_people(signs, movements)
-    chosen = [cell for cell in study_cells(people is not None) if only in cell.name]
+    recordings = load_recordings(signs, movements)
+    chosen = [condition for condition in study_conditions(recordings) if only in condition.name]
     seeds = range(first_seed, first_seed + sessions)
-    rows = tabulate(run_missing(run_session, chosen, seeds, people, workers, out / "sessions.jsonl"))
+    rows = tabulate(run_missing(run_session, chosen, seeds, workers, out / "sessions.jsonl"))
     with whole_files(out) as folder:
         write_csv(folder / "cells.csv", Row._fields, rows)
-        (folder / "cells.md").write_text(markdown(rows) + "\n", encoding="utf-8")
-        sources = [p.source for p in people] if people else ["synthetic"]
+        (folder / "cells.md").write_text(shares_table(rows) + "\n", encoding="utf-8")
+        sources = [recordings.signs.source, recordings.movements.source] if recordings else ["synthetic"]
         write_facts(
             folder / "cells.json", {"seeds": [seeds[0], seeds[-1]], "people": sources, "beaten": beaten_cells(rows)}
         )
         draw_cells(rows).savefig(folder / "cells.png", dpi=90)
-    print(markdown(rows))
+    print(shares_table(rows))
     for cell, method, theirs, ours in beaten_cells(rows):
         print(f"{cell}: {method} was right in {theirs} sessions, {OURS} in {ours}")
 
@@ -104,10 +101,10 @@ def asking(
     """
     from signimit.plots.studies import draw_lessons
 
-    people = load_people(signs, movements)
-    chosen = [cell for cell in asking_cells(people is not None) if only in cell.name]
+    recordings = load_recordings(signs, movements)
+    chosen = [condition for condition in asking_conditions(recordings) if only in condition.name]
     seeds = range(first_seed, first_seed + sessions)
-    rows = tabulate_lessons(run_missing(run_lessons, chosen, seeds, people, workers, out / "lessons.jsonl"))
+    rows = tabulate_lessons(run_missing(run_lessons, chosen, seeds, workers, out / "lessons.jsonl"))
     needed = demonstrations_needed(rows, UNDERSTOOD)
     with whole_files(out) as folder:
         write_csv(folder / "asking.csv", LessonRow._fields, rows)
@@ -118,23 +115,21 @@ def asking(
         print(f"{cell}, asking {strategy}: {UNDERSTOOD:.0%} understood from {count or 'more'} demonstrations on")
 
 
-def load_people(signs: Path | None, movements: Path | None) -> People | None:
+def load_recordings(signs: Path | None, movements: Path | None) -> Recordings | None:
     """Load real people's strokes, if both kinds are given."""
     if signs is None or movements is None:
         return None
-    return People(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
+    return Recordings(StrokeLibrary.load(signs), StrokeLibrary.load(movements))
 
 
-def run_missing(
-    run: Run, chosen: list[Cell], seeds: range, people: People | None, workers: int, file: Path
-) -> list[Record]:
+def run_missing(run: Run, chosen: list[Condition], seeds: range, workers: int, file: Path) -> list[Record]:
     """Run the sessions that are not in a file of records yet, and return those of all, by cell and seed."""
     if not seeds or not chosen:
         raise InvalidInputError("cells", "at least 1 session of 1 cell", f"{len(seeds)} of {len(chosen)}")
     workers = workers or max(1, (os.cpu_count() or 2) - 1)
-    for _ in tqdm(run_sessions(run, chosen, seeds, file, people, workers), unit="session"):
+    for _ in tqdm(run_sessions(run, chosen, seeds, file, workers), unit="session"):
         pass
-    order = {cell.name: number for number, cell in enumerate(chosen)}
+    order = {condition.name: number for number, condition in enumerate(chosen)}
     found = [r for r in read_records(file) if r["cell"] in order and r["seed"] in seeds]
     return sorted(found, key=lambda r: (order[r["cell"]], r["seed"]))
 
@@ -186,8 +181,8 @@ def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Pa
     """
     if sessions < 1:
         raise InvalidInputError("people", "at least 1 session", str(sessions))
-    people, rows = People(StrokeLibrary.load(signs), StrokeLibrary.load(movements)), []
-    for row in leave_people_out(people, sessions):
+    recordings, rows = Recordings(StrokeLibrary.load(signs), StrokeLibrary.load(movements)), []
+    for row in leave_people_out(recordings, sessions):
         print(
             f"{row.mover}, {row.cell}: {row.right_without} of {row.sessions} right with constants measured without "
             f"these people, {row.right_shipped} with the package's",
@@ -199,7 +194,8 @@ def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Pa
         total = sum(row.sessions for row in rows)
         counts = {"without": sum(r.right_without for r in rows), "shipped": sum(r.right_shipped for r in rows)}
         shares = {k: [n, total, *(round(x, 4) for x in wilson_interval(n, total))] for k, n in counts.items()}
-        write_facts(folder / "people.json", {"people": [p.source for p in people], "right, of, 95 %": shares})
+        sources = [recordings.signs.source, recordings.movements.source]
+        write_facts(folder / "people.json", {"people": sources, "right, of, 95 %": shares})
 
 
 def reading_signs(*, signs: Path | None = None, sessions: int = 20, out: Path = OUT) -> None:
@@ -225,11 +221,8 @@ def write_facts(path: Path, facts: dict[str, Any]) -> None:
     """Write how a table was made beside it."""
     made = {
         "command": command_text(),
-        "versions": {
-            "signimit": signimit.__version__, "python": platform.python_version(), "numpy": np.__version__,
-            "scipy": scipy.__version__, "scikit-learn": version("scikit-learn"),
-        },
-    }  # fmt: skip
+        "versions": installed_versions("signimit", "numpy", "scipy", "scikit-learn"),
+    }
     path.write_text(json.dumps(facts | made, indent=1) + "\n", encoding="utf-8")
 
 

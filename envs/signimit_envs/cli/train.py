@@ -12,9 +12,9 @@ from typing import Any, Literal
 import gymnasium as gym
 import numpy as np
 
+from signimit.benchmark.statistics import Share
 from signimit.exceptions import InvalidInputError, MissingDependencyError
 from signimit.io.safe_files import whole_files
-from signimit_envs.sessions.scores import Share
 from signimit_envs.video.record_mp4 import RecordMp4
 
 _ROLLOUT, _BATCH = 512, 64  # steps of each environment between two updates, and steps in a gradient

@@ -15,10 +15,10 @@ from signimit.learning import ImitationModel
 from signimit.policies import CONTROL_PERIOD, run_policy
 from signimit.policies.closed_loop import count_steps
 from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching.sessions import Command
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.recorder import EpisodeRecorder
 from signimit_envs.sessions.reproduction import hand_action
-from signimit_envs.sessions.session import Command
 
 ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
 
@@ -48,11 +48,11 @@ def record_reproductions(
 
 
 def _obey(model: ImitationModel, command: Command, seconds: float, env: EpisodeRecorder) -> None:
-    options = {**command.request._asdict(), **command.scene._asdict(), "signs": command.signs}
-    observation, _ = env.reset(options=options)
+    places = {"objects": command.objects, "hand": command.hand}
+    observation, _ = env.reset(options={**command.request._asdict(), **places, "signs": command.signs})
 
     def step_arm(hand: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64] | None:
         seen, _, terminated, truncated, _ = env.step(hand_action(velocity).astype(np.float32))
         return None if terminated or truncated else seen["hand"]
 
-    run_policy(model.respond(command.signs, command.scene.objects).policy, observation["hand"], seconds, step_arm)
+    run_policy(model.respond(command.signs, command.objects).policy, observation["hand"], seconds, step_arm)

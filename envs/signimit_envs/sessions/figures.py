@@ -20,13 +20,13 @@ DOTS_PER_INCH = 130
 
 def write_figures(result: SessionResult, folder: Path) -> None:
     """Write figures 4 to 7 and the memberships as PNG, and why it was so understood where the method can tell."""
-    model, language = result.model, result.session.plan.language
+    model, language = result.model, result.plan.language
     distances = session_distances(result)
     similarity = maximum_similarities(distances)
     evidence = model.understanding.evidence
     history = evidence.history if isinstance(evidence, PaperEvidence) else None
     if history is None:  # a method without Algorithm 1; show what the paper's would have done
-        history = group_movements(similarity, method=algorithm_reading(result), rng=result.session.plan.seed).history
+        history = group_movements(similarity, method=algorithm_reading(result), rng=result.plan.seed).history
     reproductions = by_request(result)
     drawn = {
         "figure4": figures.draw_demonstrations(result.session.demonstrations, model.labels, model.focus),
@@ -51,11 +51,11 @@ def by_request(result: SessionResult) -> dict[tuple[int, int], list[Reproduction
     """Return the reproductions of each request, by (movement, focus)."""
     return {
         (request.movement, request.focus): [r for r in result.reproductions if r.command.request == request]
-        for request in result.session.plan.language.requests
+        for request in result.plan.language.requests
     }
 
 
 def path_about_object(reproduction: Reproduction) -> NDArray[np.float64]:
     """Return the path of the hand in the frame of the object asked for, shape (T, 2), m."""
     command = reproduction.command
-    return np.asarray(reproduction.answer.path - command.scene.objects[command.request.focus])
+    return np.asarray(reproduction.answer.path - command.objects[command.request.focus])

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
+import platform
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from signimit_envs.sessions.report import installed_versions, share_entry
-from signimit_envs.sessions.scores import (
-    STAGES,
-    InferenceVerdict,
-    Share,
-    failing_stage,
-    judge_inference,
-    obeyed_shares,
-    restart_grouping,
-)
+from signimit.benchmark.results import installed_versions
+from signimit.benchmark.scoring import InferenceVerdict, judge_inference
+from signimit.benchmark.statistics import Share
+from signimit_envs.sessions.report import PACKAGES, share_entry
+from signimit_envs.sessions.scores import STAGES, failing_stage, obeyed_shares, restart_grouping
 from signimit_envs.sessions.session import SessionResult
 
 
@@ -41,7 +37,7 @@ def session_outcome(result: SessionResult) -> SessionOutcome:
     """Judge a session."""
     stages = tuple(failing_stage(result, r) for r in result.reproductions if not r.obeyed)
     verdict = judge_inference(result.model, result.session.truth)
-    return SessionOutcome(result.session.plan.seed, verdict, restart_grouping(result), obeyed_shares(result), stages)
+    return SessionOutcome(result.plan.seed, verdict, restart_grouping(result), obeyed_shares(result), stages)
 
 
 def repeats_paper(outcome: SessionOutcome) -> bool:
@@ -83,7 +79,7 @@ def study_report(outcomes: Sequence[SessionOutcome], method: str, policy: str) -
     return {
         "method": method,
         "policy": policy,
-        "versions": installed_versions(),
+        "versions": {"platform": platform.platform(), **installed_versions(*PACKAGES)},
         "shares": {name: share_entry(share) for name, share in study_shares(outcomes).items()},
         "sessions": [
             {

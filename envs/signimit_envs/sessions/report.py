@@ -4,38 +4,35 @@ from __future__ import annotations
 
 import json
 import platform
-from importlib import metadata
 from typing import Any
 
 import numpy as np
 
+from signimit.benchmark.results import installed_versions
+from signimit.benchmark.scoring import judge_inference
+from signimit.benchmark.statistics import Share
 from signimit.explanation import object_name
+from signimit.teaching.composition import Strokes
 from signimit.teaching.languages import Request
-from signimit.teaching.people.casting import Cast
-from signimit_envs.sessions.scores import (
-    Share,
-    algorithm_reading,
-    failing_stage,
-    judge_inference,
-    obeyed_shares,
-    restart_grouping,
-)
-from signimit_envs.sessions.session import Reproduction, Session, SessionResult
+from signimit.teaching.people.choosing import People
+from signimit.teaching.sessions import Session
+from signimit_envs.sessions.scores import algorithm_reading, failing_stage, obeyed_shares, restart_grouping
+from signimit_envs.sessions.session import Reproduction, SessionResult
 
 FORMAT = 1
 PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
 
 
-def session_report(result: SessionResult, cast: Cast) -> dict[str, Any]:
+def session_report(result: SessionResult, people: People[Strokes]) -> dict[str, Any]:
     """Tell everything about a session in what JSON can say; the same session gives the same object."""
-    plan, language = result.session.plan, result.session.plan.language
+    plan, language = result.plan, result.plan.language
     rows = [_reproduction_entry(result, r) for r in result.reproductions]
     verdict = judge_inference(result.model, result.session.truth)
     return {
         "format": FORMAT,
         "plan": {name: getattr(plan, name) for name in ("method", "policy", "seed", "attempts", "seconds")},
-        "people": {"interactant": cast.names[0], "demonstrator": cast.names[1]},
-        "versions": installed_versions(),
+        "people": {"interactant": people.names[0], "demonstrator": people.names[1]},
+        "versions": {"platform": platform.platform(), **installed_versions(*PACKAGES)},
         "movements": list(language.movements),
         "inference": {
             "grouping right": verdict.grouping,
@@ -54,7 +51,7 @@ def session_report(result: SessionResult, cast: Cast) -> dict[str, Any]:
 def session_table(result: SessionResult) -> str:
     """Say in a table how each pair of signs was obeyed."""
     lines = ["movement       about  shown   obeyed  path error  coverage  turns"]
-    for request in result.session.plan.language.requests:
+    for request in result.plan.language.requests:
         lines.append(_row(request, result))
     for name, share in obeyed_shares(result).items():
         lines.append(f"obeyed, {name}: {share}")
@@ -85,23 +82,12 @@ def truth_text(session: Session) -> str:
     return json.dumps({"word order": order, "demonstrations": entries}, indent=1) + "\n"
 
 
-def installed_versions() -> dict[str, str]:
-    """Return the versions of Python, of the platform and of what decides the numbers."""
-    versions = {"python": platform.python_version(), "platform": platform.platform()}
-    for package in PACKAGES:
-        try:
-            versions[package] = metadata.version(package)
-        except metadata.PackageNotFoundError:
-            versions[package] = "not installed"
-    return versions
-
-
 def _row(request: Request, result: SessionResult) -> str:
     mine = [r for r in result.reproductions if r.command.request == request]
     obeyed = Share.of(r.obeyed for r in mine)
     error, coverage, turns = np.median([r.performance[2:5] for r in mine], axis=0)
-    movement = result.session.plan.language.movements[request.movement]
-    shown = "yes" if mine[0].command.seen else "never"
+    movement = result.plan.language.movements[request.movement]
+    shown = "yes" if request in result.plan.language.seen else "never"
     return (
         f"{movement:14s} {object_name(request.focus):6s} {shown:6s} {obeyed.count:>4d}/{obeyed.total:<2d} "
         f"{error:>11.2f} {coverage:>9.2f} {turns:>6.1f}"
@@ -111,9 +97,9 @@ def _row(request: Request, result: SessionResult) -> str:
 def _reproduction_entry(result: SessionResult, reproduction: Reproduction) -> dict[str, Any]:
     command, performance = reproduction.command, reproduction.performance
     return {
-        "movement asked for": result.session.plan.language.movements[command.request.movement],
+        "movement asked for": result.plan.language.movements[command.request.movement],
         "object asked for": object_name(command.request.focus),
-        "demonstrated": command.seen,
+        "demonstrated": command.request in result.plan.language.seen,
         "obeyed": reproduction.obeyed,
         "failing stage": failing_stage(result, reproduction),
         "movement": performance.movement,

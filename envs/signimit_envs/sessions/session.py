@@ -4,22 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.demonstrations import DemonstrationSet
 from signimit.evaluation import Performance, performed
 from signimit.exceptions import InvalidInputError
 from signimit.learning import ImitationModel, learn
 from signimit.policies import DEFAULT_POLICY
-from signimit.strokes import Stroke
-from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_prototypes, compose_utterance
-from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
-from signimit.teaching.people.casting import Cast
-from signimit.teaching.scenes import sample_hand, sample_scene
-from signimit.teaching.stroke_sampler import StrokeSampler
+from signimit.teaching.composition import Strokes
+from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching.people.choosing import People
+from signimit.teaching.sessions import Command, Condition, Session, ask_in_order, compose_session
 from signimit_envs.sessions.reproduction import reproduce
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
@@ -56,33 +54,14 @@ class SessionPlan:
             raise InvalidInputError("attempts", "at least 1", f"{self.attempts}")
         _check_seconds(self.seconds)
 
+    def compose(self, people: People[Strokes]) -> Session:
+        """Compose the session: demonstrations, prototype signs, and each request so many times in a row.
 
-class Scene(NamedTuple):
-    """Where things are when the imitator begins.
-
-    Attributes:
-        objects: Object positions, shape (O, 2), m.
-        hand: Where its hand starts, shape (2,), m.
-    """
-
-    objects: NDArray[np.float64]
-    hand: NDArray[np.float64]
-
-
-class Command(NamedTuple):
-    """A request made of the imitator.
-
-    Attributes:
-        request: What is asked for; the imitator is not told.
-        signs: How, W strokes of shape (T_s, 2) that were not used before while unused ones were left.
-        scene: Where objects and hand are.
-        seen: Whether this request was among the demonstrations.
-    """
-
-    request: Request
-    signs: tuple[NDArray[np.float64], ...]
-    scene: Scene
-    seen: bool
+        Raises:
+            UnknownNameError: If the people cannot draw what the language needs.
+        """
+        condition = Condition(language=self.language, ask=partial(ask_in_order, attempts=self.attempts))
+        return compose_session(condition, self.seed, people, np.random.default_rng(self.seed))
 
 
 Track = Callable[[Sequence[Command]], Iterable[Command]]
@@ -126,102 +105,74 @@ class Reproduction(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Session:
-    """What happens before the imitator does anything.
-
-    Attributes:
-        plan: How it was made.
-        demonstrations: What the imitator sees.
-        prototypes: The signs that span its sign space.
-        truth: What the demonstrations were; for judging only.
-        commands: What it will be asked for.
-    """
-
-    plan: SessionPlan
-    demonstrations: DemonstrationSet
-    prototypes: tuple[Stroke, ...]
-    truth: GroundTruth
-    commands: tuple[Command, ...]
-
-
-@dataclass(frozen=True, eq=False)
 class SessionResult:
-    """Everything that happened.
+    """Everything that happened in a session.
 
     Attributes:
+        plan: What was done.
         session: What the imitator saw and was asked for.
         model: What it understood.
         reproductions: What it did.
     """
 
+    plan: SessionPlan
     session: Session
     model: ImitationModel
     reproductions: tuple[Reproduction, ...]
 
 
-def compose_session(plan: SessionPlan, cast: Cast) -> Session:
-    """Let the people act: demonstrations, prototype signs, and the commands that will follow.
-
-    Raises:
-        UnknownNameError: If somebody cannot draw what the language needs.
-    """
-    rng, language = np.random.default_rng(plan.seed), plan.language
-    signs, movements = StrokeSampler(cast.signs), StrokeSampler(cast.movements)
-    demonstrations, truth = compose_demonstrations(language, signs, movements, rng)
-    prototypes = compose_prototypes(language, signs, rng)
-    commands = tuple(
-        Command(
-            request,
-            compose_utterance(language, signs, *request, rng),
-            Scene(sample_scene(rng, language.objects), sample_hand(rng)),
-            request not in language.held_back,
-        )
-        for request in language.requests
-        for _ in range(plan.attempts)
-    )
-    return Session(plan, demonstrations, prototypes, truth, commands)
-
-
-def run_session(plan: SessionPlan, cast: Cast, track: Track = iter) -> SessionResult:
+def run_session(plan: SessionPlan, people: People[Strokes], track: Track = iter) -> SessionResult:
     """Run a session on the physics.
 
     Args:
         plan: What is done.
-        cast: Who makes the signs and shows the movements.
+        people: Who makes the signs and shows the movements.
         track: Passes the commands on as they are carried out, e.g. tqdm's progress bar.
 
     Raises:
         SignimitError: If something cannot be used.
     """
-    session = compose_session(plan, cast)
+    session = plan.compose(people)
     model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
     env = TabletopHandEnv(objects=plan.language.objects)
     try:
-        reproductions = tuple(obey(command, model, session, env) for command in track(session.commands))
+        reproductions = []
+        for command in track(session.commands):
+            answer = answer_signs(model, command.signs, command.objects, command.hand, plan.seconds, env)
+            performance = performed(answer.path, command.objects, session.truth.templates)
+            reproductions.append(Reproduction(command, answer, performance))
     finally:
         env.close()
-    return SessionResult(session, model, reproductions)
-
-
-def obey(command: Command, model: ImitationModel, session: Session, env: TabletopHandEnv) -> Reproduction:
-    """Let the imitator answer one command, and judge what its hand did by what the demonstrator's had done."""
-    seconds = session.plan.seconds
-    answer = answer_signs(model, command.signs, command.scene, seconds, env)
-    return Reproduction(command, answer, performed(answer.path, command.scene.objects, session.truth.templates))
+    return SessionResult(plan, session, model, tuple(reproductions))
 
 
 def answer_signs(
-    model: ImitationModel, signs: Sequence[ArrayLike], scene: Scene, seconds: float, env: TabletopHandEnv
+    model: ImitationModel,
+    signs: Sequence[ArrayLike],
+    objects: NDArray[np.float64],
+    hand: NDArray[np.float64],
+    seconds: float,
+    env: TabletopHandEnv,
 ) -> Answer:
     """Let the imitator answer signs with the simulated arm.
+
+    Args:
+        model: The imitator's.
+        signs: The utterance, W signs of shape (T_s, 2).
+        objects: Where the objects are, shape (O, 2), m.
+        hand: Where the hand starts, shape (2,), m.
+        seconds: How long it moves, 1 to 600 s.
+        env: The arm; it is reset, and not closed.
 
     Raises:
         InvalidInputError: If the signs, the scene or the duration cannot be used.
     """
     _check_seconds(seconds)
-    response = model.respond(signs, scene.objects)
+    response = model.respond(signs, objects)
     joints: list[NDArray[np.float64]] = []
-    track = reproduce(env, response.policy, *scene, seconds, each_step=lambda: joints.append(env.data.qpos.copy()))
+    track = reproduce(
+        env, response.policy, objects, hand, seconds, each_step=lambda: joints.append(env.data.qpos.copy())
+    )
     return Answer(response.movement, response.focus, response.confidence, track.path, np.array(joints))
 
 

@@ -11,14 +11,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, UnknownNameError
 from signimit.teaching.languages import Language
-from signimit.teaching.people.casting import Source
+from signimit.teaching.people.choosing import Source
 from signimit_envs.arm.arm import Arm
 from signimit_envs.arm.inverse_kinematics import HandController
 from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, compile_scene
 from signimit_envs.tabletop.actions import checked_action, make_control
 from signimit_envs.tabletop.language_options import choose_language, choose_person
 from signimit_envs.tabletop.observations import Sight, make_observer
-from signimit_envs.tabletop.people import People
+from signimit_envs.tabletop.people import choose_tabletop_people
 from signimit_envs.tabletop.reset_options import draw_situation
 from signimit_envs.tabletop.rewards import make_reward
 from signimit_envs.tabletop.success import SuccessDetector
@@ -150,7 +150,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         spoken = choose_language(language, objects, movements)
         self._arm = Arm(compile_scene(spoken.objects))
         self.model, self.data = self._arm.model, self._arm.data
-        self.people = People.sample(
+        self.people = choose_tabletop_people(
             spoken, np.random.default_rng(people_seed), choose_person(signer, "signer"), choose_person(mover, "mover")
         )
         self.controller = HandController(self.model)

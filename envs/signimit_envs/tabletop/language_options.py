@@ -8,7 +8,7 @@ from typing import Any
 
 from signimit import InvalidInputError, UnknownNameError
 from signimit.teaching.languages import Language, Request
-from signimit.teaching.people.casting import SYNTHETIC, Source
+from signimit.teaching.people.choosing import SYNTHETIC, Source
 from signimit_envs.arm.scene import check_object_count
 
 MOVEMENTS = ("triangle up", "triangle down", "circle")

@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 from signimit import InvalidInputError, UnknownNameError
 from signimit.signs import SAMPLES, normalised_sign
 from signimit.teaching.languages import Request
+from signimit.teaching.people.choosing import People
 from signimit.teaching.scenes import sample_hand, sample_scene
+from signimit.teaching.stroke_sampler import StrokeSource
 from signimit.validation import finite_array
 from signimit_envs.arm.scene import TABLE, WORKSPACE
-from signimit_envs.tabletop.people import People
 
 OPTIONS = ("movement", "focus", "objects", "hand", "signs")
 WORDS = 2  # signs of an utterance in the paper's language; a filler makes it three
@@ -37,7 +38,7 @@ class EpisodeStart(NamedTuple):
 
 
 def draw_situation(
-    options: Mapping[str, Any] | None, people: People, objects: int, rng: np.random.Generator
+    options: Mapping[str, Any] | None, people: People[StrokeSource], objects: int, rng: np.random.Generator
 ) -> EpisodeStart:
     """Take from the options what they have, and draw the rest.
 

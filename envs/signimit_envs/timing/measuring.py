@@ -10,8 +10,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.benchmark.results import installed_versions
+from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError
-from signimit_envs.sessions.report import installed_versions
+from signimit_envs.sessions.report import PACKAGES
 
 
 def read_clock() -> tuple[float, float]:
@@ -101,7 +103,7 @@ def result_facts(command: str, plan: Mapping[str, Any], tables: Sequence[Table])
     """Return all rows, and how and with what they were measured, in what JSON can say."""
     made = {"command": command, "processors": os.cpu_count(), "load": os.getloadavg()[0]}
     rows = {table.name: [row._asdict() for row in table.rows] for table in tables}
-    return {**made, "versions": installed_versions(), "plan": dict(plan), **rows}
+    return {**made, "versions": installed_versions(*PACKAGES), "plan": dict(plan), **rows}
 
 
 def result_page(title: str, facts: Mapping[str, Any], tables: Sequence[Table]) -> str:
@@ -114,6 +116,5 @@ def result_page(title: str, facts: Mapping[str, Any], tables: Sequence[Table]) -
         rows = [
             ["" if v is None else f"{v:.4g}" if isinstance(v, float) else str(v) for v in row] for row in table.rows
         ]
-        lines = ["| " + " | ".join(cells) + " |" for cells in (head, ["---"] * len(head), *rows)]
-        parts += [f"## {table.name.capitalize()}", table.text, "\n".join(lines)]
+        parts += [f"## {table.name.capitalize()}", table.text, markdown_table(head, rows)]
     return "\n\n".join(parts) + "\n"

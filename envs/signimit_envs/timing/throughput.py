@@ -17,14 +17,15 @@ from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY, PlacedPolicy
 from signimit.teaching.languages import Request
-from signimit.teaching.people.casting import cast_people
+from signimit.teaching.people.choosing import choose_people
+from signimit.teaching.sessions import Command
 from signimit_envs.arm.batch import reproduce_many
 from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
 from signimit_envs.arm.batch.physics import ManyArms, compile_arm
 from signimit_envs.arm.batch.policy_batch import PolicyBatch
 from signimit_envs.arm.scene import CONTROL_RATE, SUBSTEPS
 from signimit_envs.sessions.reproduction import reproduce
-from signimit_envs.sessions.session import Scene, SessionPlan, compose_session
+from signimit_envs.sessions.session import SessionPlan
 from signimit_envs.tabletop.success import SuccessDetector
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.timing.measuring import time_in_turns
@@ -39,22 +40,22 @@ class Work(NamedTuple):
 
     Attributes:
         policies: What moves each hand.
-        scenes: Where things are.
+        commands: What is asked for, and where things are.
         templates: What the judge compares with.
     """
 
     policies: list[PlacedPolicy]
-    scenes: list[Scene]
+    commands: list[Command]
     templates: list[list[Array]]
 
     @property
     def hands(self) -> Array:
         """Where the hands start, shape (B, 2), m."""
-        return np.array([scene.hand for scene in self.scenes])
+        return np.array([command.hand for command in self.commands])
 
     def first(self, count: int) -> Work:
         """Return the first so many of the reproductions."""
-        return Work(self.policies[:count], self.scenes[:count], self.templates)
+        return Work(self.policies[:count], self.commands[:count], self.templates)
 
 
 def compose_work(count: int, seed: int = 0, kind: str = DEFAULT_POLICY) -> Work:
@@ -67,11 +68,11 @@ def compose_work(count: int, seed: int = 0, kind: str = DEFAULT_POLICY) -> Work:
     """
     requests = len(SessionPlan().language.requests)
     plan = SessionPlan(method=DEFAULT_METHOD, policy=kind, seed=seed, attempts=-(-count // requests))
-    session = compose_session(plan, cast_people(plan.language, np.random.default_rng([seed, 1])))
+    session = plan.compose(choose_people(plan.language, np.random.default_rng([seed, 1])))
     model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
     chosen = [session.commands[i] for i in np.random.default_rng(seed).permutation(len(session.commands))[:count]]
-    policies = [model.respond(command.signs, command.scene.objects).policy for command in chosen]
-    return Work(policies, [command.scene for command in chosen], [list(t) for t in session.truth.templates])
+    policies = [model.respond(command.signs, command.objects).policy for command in chosen]
+    return Work(policies, chosen, [list(t) for t in session.truth.templates])
 
 
 class BatchSpeed(NamedTuple):
@@ -114,7 +115,8 @@ def measure_batches(
 
 def _one_by_one(env: TabletopHandEnv, work: Work, seconds: float) -> list[Array]:
     return [
-        reproduce(env, policy, *scene, seconds).path for policy, scene in zip(work.policies, work.scenes, strict=True)
+        reproduce(env, policy, command.objects, command.hand, seconds).path
+        for policy, command in zip(work.policies, work.commands, strict=True)
     ]
 
 
@@ -142,8 +144,8 @@ def compare_paths(work: Work, seconds: float) -> Agreement:
     together = reproduce_many(work.policies, work.hands, seconds).paths
     gap = max(float(np.hypot(*(a - b).T).max()) for a, b in zip(alone, together, strict=True))
     same = 0
-    for paths, scene in zip(zip(alone, together, strict=True), work.scenes, strict=True):
-        one, other = (performed(path, scene.objects, work.templates)[:2] for path in paths)
+    for paths, command in zip(zip(alone, together, strict=True), work.commands, strict=True):
+        one, other = (performed(path, command.objects, work.templates)[:2] for path in paths)
         same += one == other
     return Agreement(work.policies[0].policy.kind, len(alone), gap, same)
 
@@ -185,9 +187,11 @@ def measure_parts(work: Work, seconds: float, turns: int) -> list[Part]:
 
 def _parts_alone(env: TabletopHandEnv, work: Work, seconds: float) -> dict[str, Callable[[], object]]:
     """Return what one hand does, whole and in parts that repeat it."""
-    policy, scene, dt = work.policies[0], work.scenes[0], 1.0 / CONTROL_RATE
+    policy, command, dt = work.policies[0], work.commands[0], 1.0 / CONTROL_RATE
     joints: list[Array] = []
-    track = reproduce(env, policy, *scene, seconds, each_step=lambda: joints.append(env.data.qpos.copy()))
+    track = reproduce(
+        env, policy, command.objects, command.hand, seconds, each_step=lambda: joints.append(env.data.qpos.copy())
+    )
     ahead = track.commanded - track.path[:-1]
     commands = [env.controller.solve(q, by, dt).velocities for q, by in zip(joints, ahead, strict=False)]
     model, judge = env.model, SuccessDetector(work.templates)
@@ -200,7 +204,7 @@ def _parts_alone(env: TabletopHandEnv, work: Work, seconds: float) -> dict[str, 
             mujoco.mj_step(model, data, SUBSTEPS)
 
     def judging() -> None:
-        judge.start(Request(0, 0), scene.objects, scene.hand)
+        judge.start(Request(0, 0), command.objects, command.hand)
         for hand in track.path[1:]:
             judge.watch(hand)
 
@@ -209,12 +213,12 @@ def _parts_alone(env: TabletopHandEnv, work: Work, seconds: float) -> dict[str, 
         run_policy(policy, track.path[0], seconds, lambda *_: next(recorded, None))
 
     return {
-        WHOLE: lambda: reproduce(env, policy, *scene, seconds),
+        WHOLE: lambda: reproduce(env, policy, command.objects, command.hand, seconds),
         "physics": physics,
         "inverse kinematics": lambda: [env.controller.solve(q, by, dt) for q, by in zip(joints, ahead, strict=False)],
         "policy": moving,
         "judge": judging,
-        "start of an episode": lambda: env.reset(options={"objects": scene.objects, "hand": scene.hand}),
+        "start of an episode": lambda: env.reset(options={"objects": command.objects, "hand": command.hand}),
     }
 
 

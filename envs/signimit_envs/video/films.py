@@ -37,7 +37,7 @@ class Film(NamedTuple):
 
 def film_story(result: SessionResult) -> Film:
     """Film the story of a session."""
-    return film_shots(list(tell_story(result)), result.session.plan.language.objects)
+    return film_shots(list(tell_story(result)), result.plan.language.objects)
 
 
 def film_shots(shots: Sequence[Shot], objects: int) -> Film:
@@ -52,7 +52,7 @@ def film_grid(result: SessionResult) -> Film:
         first.setdefault(reproduction.command.request, reproduction)
     steps = min(len(r.answer.path) for r in first.values())
     ends = range(1, min(steps, round(GRID_SECONDS * CONTROL_RATE)) + 1, STRIDE)
-    return Film(_draw_grid(list(first.values()), result.session.plan.language, ends), len(ends))
+    return Film(_draw_grid(list(first.values()), result.plan.language, ends), len(ends))
 
 
 def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
@@ -65,7 +65,7 @@ def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: 
     """Draw frame by frame where the hands are after each of ``ends`` control steps."""
     with closing(SceneRenderer(language.objects, TILE, TILE)) as stage:
         for end in ends:
-            tiles = [_draw_tile(r, end, language.movements[r.command.request.movement], stage) for r in reproductions]
+            tiles = [_draw_tile(r, end, language, stage) for r in reproductions]
             rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
             yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
 
@@ -80,16 +80,17 @@ def draw_shot(shot: Shot, stage: SceneRenderer) -> Frame:
     return np.vstack([np.hstack([signs, stage.picture(shot, "perspective")]), caption])
 
 
-def _draw_tile(reproduction: Reproduction, end: int, movement: str, stage: SceneRenderer) -> Frame:
+def _draw_tile(reproduction: Reproduction, end: int, language: Language, stage: SceneRenderer) -> Frame:
     command = reproduction.command
     shot = Shot(
         phase="D",
         caption="",
-        objects=command.scene.objects,
+        objects=command.objects,
         joints=reproduction.answer.joints[end - 1],
         trail=reproduction.answer.path[:end],
     )
-    lines = [f"{movement}, {object_name(command.request.focus)}"]
-    if not command.seen:
+    movement, focus = command.request
+    lines = [f"{language.movements[movement]}, {object_name(focus)}"]
+    if unseen := command.request not in language.seen:
         lines.append("never demonstrated")
-    return draw_label(stage.picture(shot, "top"), lines, command.signs, framed=not command.seen)
+    return draw_label(stage.picture(shot, "top"), lines, command.signs, framed=unseen)

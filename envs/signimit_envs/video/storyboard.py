@@ -66,10 +66,10 @@ def tell_story(result: SessionResult) -> Iterator[Shot]:
     for number in range(1, len(result.session.demonstrations)):
         yield from show_demonstration(result, number, HASTE)
     yield from show_card(result)
-    asked = set()
+    asked, shown = set(), result.plan.language.seen
     for reproduction in result.reproductions:
         request = reproduction.command.request
-        if not reproduction.command.seen and request not in asked:
+        if request not in shown and request not in asked:
             asked.add(request)
             yield from show_reproduction(result, reproduction)
 
@@ -118,14 +118,14 @@ def show_card(result: SessionResult) -> Iterator[Shot]:
 
 def show_reproduction(result: SessionResult, reproduction: Reproduction) -> Iterator[Shot]:
     """Show a command being given to the robot (C), and what it does (D)."""
-    command, language = reproduction.command, result.session.plan.language
-    shown = "shown in a demonstration" if command.seen else "never shown in any demonstration"
+    command, language = reproduction.command, result.plan.language
+    shown = "shown in a demonstration" if command.request in language.seen else "never shown in any demonstration"
     asked = f"{language.movements[command.request.movement]}, {object_name(command.request.focus)}"
     verdict = "obeyed" if reproduction.obeyed else "not obeyed"
     captions = f"New scene, a pair of signs {shown}", f"The robot answers. Asked for: {asked}"
     end = round(ANSWER_SECONDS * CONTROL_RATE) + 1
     answer = reproduction.answer._replace(path=reproduction.answer.path[:end], joints=reproduction.answer.joints[:end])
-    shots = list(show_answer(command.signs, command.scene.objects, answer, captions))
+    shots = list(show_answer(command.signs, command.objects, answer, captions))
     yield from shots
     yield from [replace(shots[-1], caption=f"{captions[1]}: {verdict}")] * FRAME_RATE
 

@@ -1,9 +1,20 @@
-"""Entries of the benchmark by name, in the order of the leaderboard.
+"""Entries of the benchmark: ours by name, and anybody's by ``module:Class`` or ``file.py:Class``.
 
 What a learner needs that is not installed with signimit is imported when its entry is made.
 """
 
 from __future__ import annotations
+
+import hashlib
+import importlib
+import importlib.util
+import re
+import sys
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+from types import ModuleType
+from typing import NamedTuple
 
 from signimit.benchmark.entries.chance import Chance
 from signimit.benchmark.entries.imitator import learner_entrant
@@ -11,7 +22,9 @@ from signimit.benchmark.entries.knn_cloning import NearestNeighbourCloning
 from signimit.benchmark.entries.oracles import AllKnowing, oracle_focus, oracle_grouping
 from signimit.benchmark.entries.replay import Replay, ReplayNearby
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle
+from signimit.exceptions import InvalidInputError, UnknownNameError
 
+METHODS = ("observe", "begin", "act")
 MANY = 1200  # demonstrations for those who learn slowly
 
 
@@ -60,4 +73,81 @@ _ALL: tuple[Entrant | Oracle, ...] = (
 )
 
 ENTRANTS: dict[str, Entrant | Oracle] = {entrant.name: entrant for entrant in _ALL}
-"""Everybody who enters, by name."""
+"""All entrants, by name, in the order of the leaderboard."""
+
+
+class EntrantReference(NamedTuple):
+    """Names an entrant so that another process, on another machine, can make it.
+
+    Attributes:
+        name: A registered name, or ``module:Class``, or the name of a file and a class.
+        source: Text of the file, if it is a file.
+    """
+
+    name: str
+    source: str = ""
+
+    @property
+    def slug(self) -> str:
+        """The name as part of a file's name."""
+        return re.sub(r"[^\w.-]+", "-", self.name)
+
+
+def refer_to(name: str) -> EntrantReference:
+    """Make a reference from what a user typed, and see that the entrant exists.
+
+    Raises:
+        UnknownNameError: If there is no such entrant.
+        InvalidInputError: If what is named is not a class with the three methods.
+        OSError: If the file cannot be read.
+    """
+    place, colon, attribute = name.rpartition(":")
+    if colon and place.endswith(".py"):
+        source = Path(place).read_text(encoding="utf-8")
+        reference = EntrantReference(f"{Path(place).name}:{attribute}", source)
+    else:
+        reference = EntrantReference(name)
+    get_entrant(reference)
+    return reference
+
+
+@lru_cache(maxsize=64)
+def get_entrant(reference: EntrantReference) -> Entrant | Oracle:
+    """Return the entrant that a reference stands for.
+
+    Raises:
+        UnknownNameError: If there is none of that name.
+        InvalidInputError: If what is named is not a class with the three methods.
+    """
+    place, colon, attribute = reference.name.rpartition(":")
+    if not colon:
+        if reference.name not in ENTRANTS:
+            raise UnknownNameError("entry", reference.name, [*ENTRANTS, "module:Class", "file.py:Class"])
+        return ENTRANTS[reference.name]
+    module = _module_of_source(reference) if reference.source else _imported(place, reference.name)
+    made_by = getattr(module, attribute, None)
+    missing = [m for m in METHODS if not callable(getattr(made_by, m, None))]
+    if not isinstance(made_by, type) or missing:
+        lacks = f"without {', '.join(missing)}" if isinstance(made_by, type) else repr(made_by)
+        raise InvalidInputError(f"entry {reference.name}", "a class with observe, begin and act", lacks)
+    title = (made_by.__doc__ or attribute).strip().partition("\n")[0].rstrip(".")
+    make: Callable[[], Entry] = made_by
+    return Entrant(name=reference.slug, title=title, make=lambda kit: make())
+
+
+def _imported(place: str, name: str) -> ModuleType:
+    try:
+        return importlib.import_module(place)
+    except ModuleNotFoundError as error:
+        if error.name is None or not place.startswith(error.name):
+            raise  # it exists, and lacks something itself
+        raise InvalidInputError(f"entry {name}", "a module that can be imported", f"none called {place}") from None
+
+
+def _module_of_source(reference: EntrantReference) -> ModuleType:
+    """Run the text of a file as a module; it is registered because dataclasses look theirs up."""
+    digest = hashlib.sha256(reference.source.encode()).hexdigest()[:16]
+    module = ModuleType(f"signimit_entry_{digest}")
+    sys.modules[module.__name__] = module
+    exec(compile(reference.source, reference.name.rpartition(":")[0], "exec"), module.__dict__)
+    return module

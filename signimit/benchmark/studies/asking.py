@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.benchmark.studies.cells import Cell, People, cast_strokes
+from signimit.benchmark.studies.conditions import Recordings, study_condition
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.inference import WordOrder
 from signimit.io.safe_files import Record
 from signimit.learning import ImitationModel, learn
-from signimit.teaching.composition import compose_loops, compose_path, compose_utterance
-from signimit.teaching.languages import Language, Request
-from signimit.teaching.scenes import sample_hand, sample_scene, sample_times
+from signimit.teaching.languages import Request
+from signimit.teaching.people.choosing import People
+from signimit.teaching.scenes import sample_scene
+from signimit.teaching.sessions import Condition
 from signimit.teaching.stroke_sampler import StrokeSampler
 
 SCENES = 8  # that there are to choose from, each time
@@ -24,13 +26,13 @@ SAMPLES = 40  # strokes of each label by a synthetic person
 ASKED = 20  # demonstrations at the end of a lesson; with few pairs, twice each
 
 
-def asking_cells(real: bool) -> list[Cell]:
-    """Return the cells in which lessons are given."""
-    cells = [Cell(movements=m, objects=o, repetitions=1) for m, o in ((3, 3), (5, 4))]
-    cells.append(Cell(movements=5, objects=3, repetitions=1, condition="noise"))
-    if real:
-        cells += [Cell(movements=m, objects=o, repetitions=1, people="real") for m, o in ((3, 3), (5, 4))]
-    return cells
+def asking_conditions(recordings: Recordings | None = None) -> list[Condition]:
+    """Return the conditions in which lessons are given."""
+    conditions = [study_condition(*size) for size in ((3, 3, 1), (5, 4, 1))]
+    conditions.append(study_condition(5, 3, 1, "noise"))
+    if recordings is not None:
+        conditions += [study_condition(*size, recordings=recordings) for size in ((3, 3, 1), (5, 4, 1))]
+    return conditions
 
 
 class Question(NamedTuple):
@@ -46,23 +48,19 @@ Ask = Callable[["Lesson", ImitationModel, NDArray[np.float64]], Question]
 class Lesson:
     """People, a language, and what was shown so far. Knows the truth; the imitator is asked by its model only."""
 
-    def __init__(self, cell: Cell, seed: int, people: People | None) -> None:
+    def __init__(self, condition: Condition, seed: int) -> None:
         """Show every sign once; with odd seeds the movement is named first."""
-        self.rng = np.random.default_rng([seed, cell.movements, cell.objects])
-        plain = cell.language
-        self.language = Language(
-            focus_signs=plain.focus_signs, movement_signs=plain.movement_signs, movements=plain.movements,
-            focus_word=seed % 2, movement_word=1 - seed % 2, unseen=(),
-        )  # fmt: skip
-        signs, movements = cast_strokes(cell, self.rng, people, SAMPLES)
-        self.signs, self.movements = StrokeSampler(signs), StrokeSampler(movements)
+        plain = condition.language
+        self.rng = np.random.default_rng([seed, len(plain.movements), plain.objects])
+        self.language = replace(plain, focus_word=seed % 2, movement_word=1 - seed % 2, unseen=())
+        people = condition.choose_people(self.language, SAMPLES, self.rng, self.rng)
+        self.people = People(self.language, StrokeSampler(people.signs), StrokeSampler(people.movements))
         self.requests: list[Request] = []
         self.demonstrations: list[Demonstration] = []
         for request in self._first_requests():
             self.show(Question(request, self.scenes(1)[0]))
         self.commands = [
-            (request, compose_utterance(self.language, self.signs, *request, self.rng), self.scenes(1)[0])
-            for request in self.language.requests
+            (request, self.people.speak(request, self.rng), self.scenes(1)[0]) for request in self.language.requests
         ]
 
     def _first_requests(self) -> list[Request]:
@@ -78,12 +76,9 @@ class Lesson:
 
     def show(self, question: Question) -> None:
         """Let the people answer a question, and remember both."""
-        (movement, focus), objects = question
-        signs = compose_utterance(self.language, self.signs, movement, focus, self.rng)
-        loops = compose_loops(self.language, self.movements, movement, self.rng)
-        hand = compose_path(sample_hand(self.rng), [loop + objects[focus] for loop in loops])
-        self.requests.append(Request(movement, focus))
-        self.demonstrations.append(Demonstration(signs, objects, hand, sample_times(len(hand))))
+        request, objects = question
+        self.requests.append(request)
+        self.demonstrations.append(self.people.demonstrate(request, self.rng, lambda rng, count: objects))
 
     def meaning(self, copied: Sequence[int]) -> Request:
         """Return what signs copied from demonstrations ask for in truth."""
@@ -107,7 +102,7 @@ def ask_at_random(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.floa
 
 
 def ask_the_least_shown(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.float64]) -> Question:
-    """Ask for a pair that, in the model's eyes, was shown least, in any scene: a balanced design without doubt."""
+    """Ask for a pair that, by the model, was shown least, in any scene: a balanced design without doubt."""
     shown = np.zeros((len(model.movements), scenes.shape[1]))
     np.add.at(shown, (model.labels, model.focus), 1.0)
     heard = np.unique(model.focus)
@@ -132,20 +127,22 @@ STRATEGIES: dict[str, Ask] = {
 }
 
 
-def run_lessons(cell: Cell, seed: int, people: People | None) -> Record:
-    """Let each strategy ask the same people, from the same first demonstrations."""
-    curves = {name: _curve(Lesson(cell, seed, people), ask) for name, ask in STRATEGIES.items()}
-    first = max(cell.movements, cell.objects)
-    return {"cell": cell.name, "seed": seed, "first": first, "curves": curves}
+def run_lessons(condition: Condition, seed: int) -> Record:
+    """Let each strategy ask the same people, from the same first demonstrations.
 
-
-def _curve(lesson: Lesson, ask: Ask) -> list[float]:
-    """Accuracy after each demonstration, from the first ones on."""
-    found = []
-    last = min(ASKED, 2 * len(lesson.language.requests))
-    while True:
-        model = learn(DemonstrationSet(lesson.demonstrations), policy="knn")
-        found.append(round(lesson.accuracy(model), 4))
-        if len(lesson.demonstrations) >= last:
-            return found
-        lesson.show(ask(lesson, model, lesson.scenes(SCENES)))
+    Returns:
+        A record with the accuracy after each demonstration, from the first ones on, by strategy.
+    """
+    curves: dict[str, list[float]] = {}
+    for name, ask in STRATEGIES.items():
+        lesson = Lesson(condition, seed)
+        last, curve = min(ASKED, 2 * len(lesson.language.requests)), []
+        while True:
+            model = learn(DemonstrationSet(lesson.demonstrations), policy="knn")
+            curve.append(round(lesson.accuracy(model), 4))
+            if len(lesson.demonstrations) >= last:
+                break
+            lesson.show(ask(lesson, model, lesson.scenes(SCENES)))
+        curves[name] = curve
+    first = max(len(condition.language.movements), condition.language.objects)
+    return {"cell": condition.name, "seed": seed, "first": first, "curves": curves}

@@ -1,4 +1,4 @@
-"""People who had no part in it: the constants of the evidence, measured without them, and how they are understood.
+"""Leave-people-out cross-validation of the evidence constants.
 
 The constants in `signimit.learners.joint.distance_model` were measured on all people at hand. Here every person is
 left out once: the constants are measured anew on the others, and sessions of those left out are learned with both.
@@ -15,31 +15,26 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.benchmark.studies.cells import Cell, People, StudySession, compose_session
-from signimit.benchmark.studies.methods import Answer
-from signimit.benchmark.studies.scoring import judge
+from signimit.benchmark.scoring import judge_inference
+from signimit.benchmark.studies.conditions import Recordings, compose_study_session, study_condition
 from signimit.learners.joint.distance_model import DRAWINGS, SIGNS, DistanceModel
 from signimit.learners.joint.distances import measure_distances
 from signimit.learners.joint.learner import JointLearner
 from signimit.strokes import StrokeLibrary
+from signimit.teaching.sessions import Session
 
-MEASURED = (
-    Cell(movements=5, objects=4, repetitions=1, people="real"),
-    Cell(movements=3, objects=3, repetitions=2, people="real", condition="mixed"),
-)
-TESTED = tuple(
-    Cell(movements=m, objects=o, repetitions=r, people="real") for m, o, r in ((3, 3, 2), (5, 4, 1), (7, 3, 1))
-)
-_MEASURING = 10  # sessions of each cell that constants are measured on
+MEASURED = ((5, 4, 1, "plain"), (3, 3, 2, "mixed"))  # conditions that constants are measured in
+TESTED = ((3, 3, 2), (5, 4, 1), (7, 3, 1))
+_MEASURING = 10  # sessions of each condition that constants are measured on
 _LEAST_SPREAD = 0.1
 
 
 class FoldRow(NamedTuple):
-    """One cell of sessions of people left out.
+    """One condition, of people left out.
 
     Attributes:
         mover: Who was left out of those who move; a share of the signers is left out beside.
-        cell: Kind of sessions.
+        cell: Condition.
         sessions: How many.
         right_without: Of them with every inference right, constants measured without these people.
         right_shipped: The same with the constants that the package has.
@@ -60,36 +55,38 @@ class FoldRow(NamedTuple):
     signs_spread: float
 
 
-def leave_people_out(people: People, sessions: int) -> Iterator[FoldRow]:
-    """Leave each mover out once, each time with another share of the signers; yields a row for each cell."""
-    movers, signers = (sorted(set(library.writers)) for library in (people.movements, people.signs))
+def leave_people_out(recordings: Recordings, sessions: int) -> Iterator[FoldRow]:
+    """Leave each mover out once, each time with another share of the signers; yields a row for each condition."""
+    movers, signers = (sorted(set(library.writers)) for library in (recordings.movements, recordings.signs))
     for number, mover in enumerate(movers):
         out = set(signers[number :: len(movers)])
-        others = People(_of(people.signs, set(signers) - out), _of(people.movements, set(movers) - {mover}))
+        others = Recordings(_of(recordings.signs, set(signers) - out), _of(recordings.movements, set(movers) - {mover}))
         learner = measured_learner(others)
-        absent = People(_of(people.signs, out), _of(people.movements, {mover}))
-        for cell in TESTED:
-            composed = [compose_session(cell, seed, absent) for seed in range(sessions)]
-            without, shipped = (_right(composed, chosen) for chosen in (learner, JointLearner()))
-            yield FoldRow(mover, cell.name, sessions, without, shipped, *_constants(learner))
+        constants = [getattr(m, c) for m in (learner.drawings, learner.signs) for c in ("equal_mean", "equal_spread")]
+        absent = Recordings(_of(recordings.signs, out), _of(recordings.movements, {mover}))
+        for size in TESTED:
+            condition = study_condition(*size, recordings=absent)
+            composed = [compose_study_session(condition, seed) for seed in range(sessions)]
+            without, shipped = (_count_right(composed, chosen) for chosen in (learner, JointLearner()))
+            yield FoldRow(mover, condition.name, sessions, without, shipped, *(round(c, 3) for c in constants))
 
 
-def measured_learner(people: People) -> JointLearner:
+def measured_learner(recordings: Recordings) -> JointLearner:
     """Measure the means and spreads of the evidence on sessions of these people; shares and prices stay."""
     drawings, signs = [], []
-    for cell in MEASURED:
+    for movements, objects, repetitions, variant in MEASURED:
+        condition = study_condition(movements, objects, repetitions, variant, recordings)
         for seed in range(_MEASURING):
-            session = compose_session(cell, seed, people)
-            drawn, said = _equals_and_others(session)
+            drawn, said = _equals_and_others(compose_study_session(condition, seed))
             drawings.append(drawn)
             signs.append(said)
     return JointLearner(_fitted(DRAWINGS, drawings), _fitted(SIGNS, signs))
 
 
-Split = tuple[NDArray[np.float64], NDArray[np.float64]]  # log distances of equals, and of others
+LogDistances = tuple[NDArray[np.float64], NDArray[np.float64]]  # log distances of equals, and of others
 
 
-def _equals_and_others(session: StudySession) -> tuple[Split, Split]:
+def _equals_and_others(session: Session) -> tuple[LogDistances, LogDistances]:
     seen, truth, language = measure_distances(session.demonstrations), session.truth, session.truth.language
     t, k = np.triu_indices(len(session.demonstrations), 1)
     one_movement, one_focus = truth.movement[t] == truth.movement[k], truth.focus[t] == truth.focus[k]
@@ -100,7 +97,7 @@ def _equals_and_others(session: StudySession) -> tuple[Split, Split]:
     return (drawn[one_movement], drawn[~one_movement]), (equal, other)
 
 
-def _fitted(model: DistanceModel, sessions: Sequence[Split]) -> DistanceModel:
+def _fitted(model: DistanceModel, sessions: Sequence[LogDistances]) -> DistanceModel:
     """Replace means and spreads by those of sessions; medians, for some of the others are akin and some equals odd."""
     typical = np.array([np.median(equal) for equal, _ in sessions])
     about = np.concatenate([equal - middle for (equal, _), middle in zip(sessions, typical, strict=True)])
@@ -120,20 +117,10 @@ def _robust_spread(values: NDArray[np.float64]) -> float:
     return max(1.4826 * float(np.median(np.abs(values - np.median(values)))), _LEAST_SPREAD)
 
 
-def _right(sessions: Sequence[StudySession], learner: JointLearner) -> int:
-    count = 0
-    for session in sessions:
-        found = learner.infer(session.demonstrations, None, np.random.default_rng(0))
-        count += judge(Answer(found.labels, found.focus, found.word_order), session.truth).all
-    return count
-
-
-def _constants(learner: JointLearner) -> tuple[float, float, float, float]:
-    models = (learner.drawings, learner.signs)
-    mean, spread, mean_of_signs, spread_of_signs = (
-        round(value, 3) for model in models for value in (model.equal_mean, model.equal_spread)
-    )
-    return mean, spread, mean_of_signs, spread_of_signs
+def _count_right(sessions: Sequence[Session], learner: JointLearner) -> int:
+    """Count the sessions of which everything is inferred right."""
+    found = (learner.infer(session.demonstrations, None, np.random.default_rng(0)) for session in sessions)
+    return sum(judge_inference(f, session.truth).all_right for f, session in zip(found, sessions, strict=True))
 
 
 def _of(library: StrokeLibrary, writers: set[str]) -> StrokeLibrary:

@@ -1,24 +1,24 @@
-"""The methods that the study compares, each from the same distances to an answer."""
+"""The baselines of the study: clustering methods, the paper's, and chance, all from the same distances."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
 from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.cluster.hierarchy import fcluster, linkage
 from scipy.spatial.distance import squareform
 
-from signimit.benchmark.studies.cells import StudySession
 from signimit.exceptions import MissingDependencyError
 from signimit.grouping import canonical_labels, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
+from signimit.learners.base import Understanding
 from signimit.learners.joint.drawing_distance import compare_drawings, make_drawing
 from signimit.signs import SignSpace
 from signimit.similarity import maximum_similarities, policy_distances
+from signimit.teaching.sessions import Session
 
 try:
     from sklearn.cluster import HDBSCAN, AffinityPropagation, SpectralClustering
@@ -29,18 +29,10 @@ Labels = NDArray[np.int64]
 Table = NDArray[np.float64]
 
 
-class Answer(NamedTuple):
-    """What a method infers."""
-
-    labels: Labels
-    focus: Labels
-    order: WordOrder
-
-
-class Evidence:
+class SharedDistances:
     """A session with the distances that its methods share, each computed when first asked for."""
 
-    def __init__(self, session: StudySession, seed: int) -> None:
+    def __init__(self, session: Session, seed: int) -> None:
         """Keep the session; the seed is for methods that draw at random."""
         self.session, self.seed = session, seed
 
@@ -145,27 +137,26 @@ BASELINES = (
 )
 
 
-def answer(evidence: Evidence, method: str) -> Answer:
-    """Let a baseline answer; methods of clusters are followed by the paper's focus and the ratio's word order."""
-    session = evidence.session
+def infer(distances: SharedDistances, method: str) -> Understanding:
+    """Infer by a baseline; methods of clusters are followed by the paper's focus and the ratio's word order."""
     if method == "chance":
-        return _chance(session, evidence.seed)
+        return _guess(distances)
     name = method.removesuffix(", traces")
-    table = evidence.traces if method.endswith(", traces") else evidence.policies
+    table = distances.traces if method.endswith(", traces") else distances.policies
     gamma = maximum_similarities(table)
     if name in CLUSTERINGS:
-        count = len(np.unique(session.truth.movement))
-        labels, reading = canonical_labels(CLUSTERINGS[name](gamma, count, evidence.seed)), "ratio"
+        count = len(np.unique(distances.session.truth.movement))
+        labels, reading = canonical_labels(CLUSTERINGS[name](gamma, count, distances.seed)), "ratio"
     else:
-        labels, reading = group_movements(gamma, method=name, rng=evidence.seed).labels, "paper"
+        labels, reading = group_movements(gamma, method=name, rng=distances.seed).labels, "paper"
     focus = infer_focus(table, labels)
-    return Answer(labels, focus, infer_word_order(evidence.sign_points, labels, focus, method=reading))
+    return Understanding(labels, focus, infer_word_order(distances.sign_points, labels, focus, method=reading))
 
 
-def _chance(session: StudySession, seed: int) -> Answer:
+def _guess(distances: SharedDistances) -> Understanding:
     """Guess, knowing how many movements and objects there are."""
-    rng, truth = np.random.default_rng([seed, 7]), session.truth
+    rng, truth = np.random.default_rng([distances.seed, 7]), distances.session.truth
     focus, movement = rng.permutation(truth.language.words)[:2]
     labels = rng.integers(0, len(truth.language.movements), len(truth.movement))
     focuses = rng.integers(0, truth.language.objects, len(truth.movement))
-    return Answer(canonical_labels(labels), focuses, WordOrder(int(focus), int(movement)))
+    return Understanding(canonical_labels(labels), focuses, WordOrder(int(focus), int(movement)))

@@ -1,4 +1,4 @@
-"""All kinds of policies on the same sessions: who draws what was shown?"""
+"""Comparison of all kinds of policies on the same demonstrations: how well each draws what was shown."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ from typing import NamedTuple
 import numpy as np
 
 from signimit.benchmark.studies.path_quality import arrives_and_stays, back_after_shove, judge_path, shove_half_way
+from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError
 from signimit.policies import POLICY_KINDS, make_policy, run_policy
 from signimit.policies.base import Array, Policy
 from signimit.strokes import StrokeLibrary
-from signimit.teaching.composition import Language, compose_loops, compose_path
+from signimit.teaching.composition import compose_loops, compose_path
+from signimit.teaching.languages import Language
 from signimit.teaching.people.glyphs import GOAL_LABELS
 from signimit.teaching.scenes import sample_hand, sample_scene, sample_times
 from signimit.teaching.stroke_sampler import StrokeSampler
@@ -52,7 +54,7 @@ class StudyPlan:
                 raise InvalidInputError(f"study: {name}", "at least 1", f"{getattr(self, name)}")
 
 
-class Lesson(NamedTuple):
+class ShownMovement(NamedTuple):
     """Demonstrations of one movement by one person, in the object's frame.
 
     Attributes:
@@ -91,7 +93,7 @@ class Trial(NamedTuple):
     call_us: float = NOT_APPLICABLE
 
 
-def compose_lessons(library: StrokeLibrary, plan: StudyPlan) -> Iterator[tuple[int, Lesson]]:
+def compose_lessons(library: StrokeLibrary, plan: StudyPlan) -> Iterator[tuple[int, ShownMovement]]:
     """Let one person of the library after another demonstrate every movement; the same plan gives the same lessons."""
     writers = sorted(set(library.writers))
     for session in range(plan.sessions):
@@ -99,15 +101,15 @@ def compose_lessons(library: StrokeLibrary, plan: StudyPlan) -> Iterator[tuple[i
         for number, label in enumerate(plan.labels):
             rng = np.random.default_rng([plan.seed, session, number])
             language = Language(movements=(label,), movement_signs=("4",), unseen=())
-            deck = StrokeSampler(person)
-            drawn = [compose_loops(language, deck, 0, rng) for _ in range(plan.demonstrations)]
+            sampler = StrokeSampler(person)
+            drawn = [compose_loops(language, sampler, 0, rng) for _ in range(plan.demonstrations)]
             paths = [compose_path(sample_hand(rng) - sample_scene(rng)[0], loops) for loops in drawn]
             focus = sample_scene(rng)[0]
             hands = rng.uniform(-TABLE, TABLE, (plan.starts, 2)) - focus
             times = [sample_times(len(path)) for path in paths]
             yield (
                 session,
-                Lesson(label, paths, times, [loop for loops in drawn for loop in loops], focus, hands),
+                ShownMovement(label, paths, times, [loop for loops in drawn for loop in loops], focus, hands),
             )
 
 
@@ -121,7 +123,7 @@ def run_study(library: StrokeLibrary, plan: StudyPlan, kinds: Sequence[str] = PO
             yield try_policy(policy, lesson, plan, session)._replace(learning_ms=1e3 * learning)
 
 
-def try_policy(policy: Policy, lesson: Lesson, plan: StudyPlan, session: int = 0) -> Trial:
+def try_policy(policy: Policy, lesson: ShownMovement, plan: StudyPlan, session: int = 0) -> Trial:
     """Move hands by a policy from random places, shove some, and judge all."""
     path = run_policy(policy, lesson.hands, plan.seconds)
     on_table = (np.abs(path + lesson.focus) < TABLE + 0.02).all(axis=(0, 2)).mean()
@@ -178,14 +180,11 @@ def summarise(trials: Sequence[Trial]) -> list[Summary]:
 def study_table(summaries: Sequence[Summary]) -> str:
     """Return the summaries as a Markdown table, a row for each kind."""
     names = list(summaries[0].measures)
-    rows = [
-        "| kind | " + " | ".join(n.replace("_", " ") for n in names) + " |",
-        "|---" * (len(names) + 1) + "|",
-    ]
+    rows = []
     for summary in summaries:
-        cells = [
+        cells = (
             f"{100 * middle:.1f} %" if name in SHARES else f"{middle:.3g} ({high:.3g})"
             for name, (middle, high) in summary.measures.items()
-        ]
-        rows.append(f"| {summary.kind} | " + " | ".join(c.replace("nan", "–") for c in cells) + " |")
-    return "\n".join(rows)
+        )
+        rows.append((summary.kind, *(cell.replace("nan", "–") for cell in cells)))
+    return markdown_table(("kind", *(name.replace("_", " ") for name in names)), rows)

@@ -8,15 +8,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.benchmark.studies.cells import CROWD, FILLER_SIGNS, SAMPLES, choose_person
+from signimit.benchmark.splits import FILLER_SIGNS
+from signimit.benchmark.statistics import wilson_interval
+from signimit.benchmark.studies.conditions import SAMPLES
 from signimit.inference import WordOrder
-from signimit.intervals import wilson_interval
 from signimit.learners.base import Understanding
 from signimit.learners.joint.sign_distance import VocabularyReader, sign_features
 from signimit.learners.paper import NearestSignReader
 from signimit.signs import SignSpace, normalised_sign, pairwise_dtw
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people import synthetic_library
+from signimit.teaching.people.choosing import CROWD, Source, load_person
 from signimit.teaching.stroke_sampler import StrokeSampler
 
 Points = Sequence[NDArray[np.float64]]
@@ -60,7 +62,7 @@ METHODS = ("joint", "warping", "three prototypes")
 
 
 def run_quizzes(library: StrokeLibrary | None, quizzes: int) -> Iterator[SignRow]:
-    """Hold quizzes of each kind, among people at hand or, where there are none, synthetic ones; seeds are 0, 1, ...
+    """Hold quizzes of each kind among real people or, without a library, synthetic ones; seeds are 0, 1, ...
 
     Args:
         library: Signs of real people.
@@ -78,29 +80,23 @@ def run_quizzes(library: StrokeLibrary | None, quizzes: int) -> Iterator[SignRow
 def _hold(kind: Quiz, seed: int, library: StrokeLibrary | None) -> NDArray[np.int64]:
     """Count right readings of each method, shape (3,)."""
     rng = np.random.default_rng([seed, kind.shown, len(kind.signs)])
-    deck = StrokeSampler(_signers(kind, library, rng))
-    shown = [deck.draw(sign, rng)[0].points for sign in kind.signs for _ in range(kind.shown)]
-    asked = [deck.draw(sign, rng)[0].points for sign in kind.signs]
-    prototypes = [deck.draw(sign, rng)[0].points for sign in FILLER_SIGNS]
+    labels = (*kind.signs, *FILLER_SIGNS)
+    if library is None:
+        writers = CROWD if kind.crowd else 1
+        library = synthetic_library(labels, writers=writers, samples=SAMPLES // writers, rng=rng)
+    elif not kind.crowd:
+        library, _ = load_person(Source(library), labels, rng, kind.shown + 1)
+    sampler = StrokeSampler(library)
+    shown = [sampler.draw(sign, rng).points for sign in kind.signs for _ in range(kind.shown)]
+    asked = [sampler.draw(sign, rng).points for sign in kind.signs]
+    prototypes = [sampler.draw(sign, rng).points for sign in FILLER_SIGNS]
     truth = np.arange(len(asked))
     said = Understanding(np.repeat(truth, kind.shown), np.repeat(truth, kind.shown), WordOrder(0, 0))
     ours = VocabularyReader((sign_features(shown),), said, len(truth))
     space = SignSpace(prototypes)
     papers = NearestSignReader(space, space.embed_all(shown)[:, None], said, len(truth))
     readings = [[int(reader.read([sign]).focus.argmax()) for sign in asked] for reader in (ours, papers)]
-    answers = (readings[0], _nearest_by_warping(shown, asked) // kind.shown, readings[1])
-    return np.array([(np.asarray(answer) == truth).sum() for answer in answers])
-
-
-def _nearest_by_warping(shown: Points, asked: Points) -> NDArray[np.intp]:
-    """Return the number of the example that is nearest by dynamic time warping, shape (len(asked),)."""
     known, heard = (np.stack([normalised_sign(sign) for sign in signs]) for signs in (shown, asked))
-    return np.asarray(pairwise_dtw(heard, known).argmin(axis=1))
-
-
-def _signers(kind: Quiz, library: StrokeLibrary | None, rng: np.random.Generator) -> StrokeLibrary:
-    labels = (*kind.signs, *FILLER_SIGNS)
-    if library is None:
-        writers = CROWD if kind.crowd else 1
-        return synthetic_library(labels, writers=writers, samples=SAMPLES // writers, rng=rng)
-    return library if kind.crowd else choose_person(library, labels, rng, kind.shown + 1)
+    nearest = pairwise_dtw(heard, known).argmin(axis=1) // kind.shown
+    answers = (readings[0], nearest, readings[1])
+    return np.array([(np.asarray(answer) == truth).sum() for answer in answers])

@@ -1,4 +1,4 @@
-"""What came out of all sessions, as rows: one for each cell and method."""
+"""Tables of the study: a row for each condition and method, and the calibration of confidences."""
 
 from __future__ import annotations
 
@@ -8,9 +8,14 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
-from signimit.benchmark.studies.records import OURS, Record
-from signimit.intervals import wilson_interval
+from signimit.benchmark.statistics import wilson_interval
+from signimit.benchmark.studies.running import OURS
+from signimit.benchmark.tables import markdown_table
+from signimit.io.safe_files import Record
+
+BINS = 10  # of confidences, of equal width
 
 
 class Row(NamedTuple):
@@ -47,15 +52,58 @@ def beaten_cells(rows: Sequence[Row]) -> list[tuple[str, str, int, int]]:
     return [(r.cell, r.method, r.all_right, ours[r.cell]) for r in rows if r.all_right > ours[r.cell]]
 
 
-def markdown(rows: Sequence[Row]) -> str:
-    """Return the share of sessions with every inference right, in per cent, a line for each cell."""
+def shares_table(rows: Sequence[Row]) -> str:
+    """Return the share of sessions with every inference right, in per cent, as Markdown: a line for each cell."""
     methods = list(dict.fromkeys(row.method for row in rows))
-    lines = ["| cell | n | " + " | ".join(methods) + " |", "|---" * (len(methods) + 2) + "|"]
+    lines = []
     for cell in dict.fromkeys(row.cell for row in rows):
         mine = {row.method: row for row in rows if row.cell == cell}
-        shares = " | ".join(_share(mine[method]) for method in methods)
-        lines.append(f"| {cell} | {mine[methods[0]].sessions} | {shares} |")
-    return "\n".join(lines)
+        lines.append((cell, mine[methods[0]].sessions, *(_share(mine[method]) for method in methods)))
+    return markdown_table(("cell", "n", *methods), lines)
+
+
+def _share(row: Row) -> str:
+    text = f"{100 * row.all_right / row.sessions:.0f}"
+    return f"**{text}** [{100 * row.all_low:.0f}, {100 * row.all_high:.0f}]" if row.method == OURS else text
+
+
+class Calibration(NamedTuple):
+    """How well confidences fit what happens.
+
+    Attributes:
+        confidence: Mean confidence of each bin that is not empty.
+        accuracy: Share that was right in it.
+        counts: How many commands it has.
+        error: Expected calibration error: mean |confidence - accuracy|, weighted by counts.
+        coverage: Share of commands obeyed when those of lower confidence are declined, ascending.
+        risk: Share of wrong ones among the obeyed, at each coverage.
+    """
+
+    confidence: NDArray[np.float64]
+    accuracy: NDArray[np.float64]
+    counts: NDArray[np.int64]
+    error: float
+    coverage: NDArray[np.float64]
+    risk: NDArray[np.float64]
+
+
+def calibrate(confidence: ArrayLike, right: ArrayLike) -> Calibration:
+    """Compare confidences, shape (n,), with what was right, shape (n,).
+
+    The expected calibration error is that of M. P. Naeini, G. Cooper and M. Hauskrecht, AAAI 2015, with ten bins of
+    equal width.
+    """
+    sure, truth = np.asarray(confidence, dtype=np.float64), np.asarray(right, dtype=np.float64)
+    number = np.minimum((sure * BINS).astype(int), BINS - 1)
+    count = np.bincount(number, minlength=BINS)
+    full = count > 0
+    mean = np.bincount(number, sure, BINS)[full] / count[full]
+    accuracy = np.bincount(number, truth, BINS)[full] / count[full]
+    error = float((count[full] * np.abs(mean - accuracy)).sum() / len(sure))
+    order = np.argsort(-sure, kind="stable")
+    asked = np.arange(1, len(sure) + 1)
+    risk = np.cumsum(1 - truth[order]) / asked
+    return Calibration(mean, accuracy, count[full], error, asked / len(sure), risk)
 
 
 class LessonRow(NamedTuple):
@@ -80,14 +128,10 @@ def tabulate_lessons(records: Sequence[Record]) -> list[LessonRow]:
             mean = curves.mean(axis=0)
             half = 1.96 * curves.std(axis=0, ddof=min(1, len(curves) - 1)) / np.sqrt(len(curves))
             rows += [
-                LessonRow(cell, asking, mine[0]["first"] + i, len(mine), *map(_to_share, (m, m - h, m + h)))
-                for i, (m, h) in enumerate(zip(mean, half, strict=True))
+                LessonRow(cell, asking, mine[0]["first"] + i, len(mine), *(round(float(x), 4) for x in ends))
+                for i, ends in enumerate(np.clip(np.column_stack([mean, mean - half, mean + half]), 0, 1))
             ]
     return rows
-
-
-def _to_share(value: float) -> float:
-    return round(min(max(float(value), 0.0), 1.0), 4)
 
 
 def demonstrations_needed(rows: Sequence[LessonRow], share: float) -> list[tuple[str, str, int | None]]:
@@ -100,11 +144,6 @@ def demonstrations_needed(rows: Sequence[LessonRow], share: float) -> list[tuple
         enough = max(below, default=mine[0].demonstrations - 1) + 1
         found.append((cell, asking, enough if enough <= last else None))
     return found
-
-
-def _share(row: Row) -> str:
-    text = f"{100 * row.all_right / row.sessions:.0f}"
-    return f"**{text}** [{100 * row.all_low:.0f}, {100 * row.all_high:.0f}]" if row.method == OURS else text
 
 
 def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:

@@ -117,6 +117,10 @@ class Person:
         points = trajectory(plan, times) + self._tremor(times, rng)
         return Stroke(size * points @ self._shape(sign).T, times)
 
+    def draw_several(self, label: str, rng: np.random.Generator, count: int) -> tuple[Stroke, ...]:
+        """Draw a glyph so many times, as `draw` does."""
+        return tuple(self.draw(label, rng) for _ in range(count))
+
     def _plan(self, glyph: Glyph, habit: NDArray[np.float64], size: float, rng: np.random.Generator) -> MotorPlan:
         """Aim at this sample's targets.
 

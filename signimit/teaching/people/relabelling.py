@@ -1,4 +1,4 @@
-"""Making a public data set fit a language: choosing from it, renaming labels, adding mirror images."""
+"""Changes to stroke libraries: choosing, renaming and mirroring strokes, adding noise to them."""
 
 from __future__ import annotations
 
@@ -59,6 +59,32 @@ def with_mirror_images(library: StrokeLibrary, names: Mapping[str, str]) -> Stro
         library.source,
     )
     return library + images
+
+
+def with_both_triangles(library: StrokeLibrary) -> StrokeLibrary:
+    """Call apex-up "triangle" "triangle up", and mirror it where there is no "triangle down"."""
+    if "triangle" in library.labels and "triangle up" not in library.labels:
+        library = renamed(library, {"triangle": "triangle up"})
+    if "triangle up" in library.labels and "triangle down" not in library.labels:
+        library = with_mirror_images(library, {"triangle up": "triangle down"})
+    return library
+
+
+def with_waver(library: StrokeLibrary, rng: np.random.Generator, noise: float) -> StrokeLibrary:
+    """Add a slow random waver to every stroke, another one each time: three waves in each direction.
+
+    Args:
+        library: The strokes.
+        rng: Decides the waves.
+        noise: Root mean square of the waver, in half sizes of a stroke.
+    """
+    strokes = []
+    for stroke in library.strokes:
+        half = np.ptp(stroke.points, axis=0).max() / 2
+        share = np.linspace(0, 1, len(stroke.points))[:, None, None]
+        waves = np.sin(2 * np.pi * (rng.uniform(0.5, 4, (3, 2)) * share + rng.random((3, 2)))).sum(axis=1)
+        strokes.append(Stroke(stroke.points + noise * half * waves * np.sqrt(2 / 3), stroke.times))
+    return StrokeLibrary(tuple(strokes), library.labels, library.writers, library.source)
 
 
 def _check_names(what: str, names: Collection[str], known: Collection[str]) -> None:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from signimit.benchmark.entries import EntrantReference
 from signimit.benchmark.protocol import Kit
-from signimit.benchmark.registry import EntrantReference
 
 STILL = """
 class Still:

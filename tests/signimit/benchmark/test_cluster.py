@@ -13,7 +13,7 @@ import pytest
 pytest.importorskip("distributed", reason="the engine dask needs distributed")
 
 from signimit.benchmark.cluster import dask_engine
-from signimit.benchmark.registry import EntrantReference
+from signimit.benchmark.entries import EntrantReference
 from signimit.benchmark.results import ResultFile, records_digest, run_missing
 from signimit.benchmark.running import Task, run_task
 from signimit.exceptions import InvalidInputError

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from signimit.benchmark.registry import refer_to
+from signimit.benchmark.entries import refer_to
 from signimit.benchmark.running import Task, run_task
 
 EXAMPLE = Path(__file__).parents[3] / "examples" / "benchmark_entry.py"

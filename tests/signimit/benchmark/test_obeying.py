@@ -5,11 +5,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from signimit.benchmark.commands import Command
 from signimit.benchmark.obeying import FASTEST, obey
 from signimit.benchmark.protocol import Observation
 from signimit.exceptions import InvalidInputError
 from signimit.teaching.languages import Request
+from signimit.teaching.sessions import Command
 
 COMMAND = Command(Request(0, 0), (np.eye(2), np.ones((2, 2))), np.zeros((3, 2)), np.array([0.1, -0.1]), 0)
 

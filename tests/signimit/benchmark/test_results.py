@@ -6,17 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from signimit.benchmark.provenance import code_hash
-from signimit.benchmark.registry import EntrantReference
+from signimit.benchmark.entries import EntrantReference
 from signimit.benchmark.results import (
     ResultFile,
+    installed_versions,
     read_summaries,
     records_digest,
     run_missing,
     summarise,
     write_summary,
 )
-from signimit.benchmark.running import Task
+from signimit.benchmark.running import Task, code_hash
 from signimit.exceptions import FileFormatError
 from signimit.io.safe_files import Record
 
@@ -165,5 +165,9 @@ def test_a_summary_of_another_version_is_refused(tmp_path: Path, text: str, foun
 
 
 def test_a_folder_without_results_says_what_makes_them(tmp_path: Path) -> None:
-    with pytest.raises(FileFormatError, match=r"expected results; `benchmark\.py run` makes them, found none"):
+    with pytest.raises(FileFormatError, match=r"expected results; `benchmark run` makes them, found none"):
         read_summaries(tmp_path)
+
+
+def test_versions_are_told_of_what_is_installed() -> None:
+    assert set(installed_versions("numpy", "no such package")) == {"python", "numpy"}

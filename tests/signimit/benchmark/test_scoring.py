@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
-from signimit.benchmark.scoring import Judge, adjusted_rand_index, count_signs_read, score_understanding
+from signimit.benchmark.scoring import (
+    InferenceVerdict,
+    adjusted_rand_index,
+    count_signs_read,
+    judge_inference,
+    same_partition,
+    score_path,
+)
 from signimit.benchmark.shipped_sessions import get_session
 from signimit.benchmark.splits import SPLITS
+from signimit.benchmark.statistics import Share
 from signimit.inference import WordOrder
 from signimit.learners.base import Reading, Understanding
 from signimit.teaching.languages import Request
@@ -34,17 +42,27 @@ def understood(**changes: object) -> Understanding:
     return right._replace(**changes)  # type: ignore[arg-type]
 
 
-def test_understanding_everything_scores_one_whatever_the_groups_are_called() -> None:
-    assert score_understanding(understood(), TRUTH) == (1, 1, 1)
-    assert score_understanding(understood(labels=2 - TRUTH.movement), TRUTH) == (1, 1, 1)
+def test_understanding_everything_is_right_whatever_the_groups_are_called() -> None:
+    right = InferenceVerdict(True, True, True, Share(12, 12), 1.0)
+    assert judge_inference(understood(), TRUTH) == right
+    assert judge_inference(understood(labels=2 - TRUTH.movement), TRUTH) == right
+    assert right.all_right
 
 
-def test_each_mistake_lowers_its_own_score() -> None:
+def test_each_mistake_has_a_verdict_of_its_own() -> None:
     one_off = TRUTH.focus.copy()
     one_off[0] = (one_off[0] + 1) % 3
-    assert score_understanding(understood(focus=one_off), TRUTH) == (1, 11 / 12, 1)
-    assert score_understanding(understood(word_order=WordOrder(1, 0)), TRUTH) == (1, 1, 0)
-    assert score_understanding(understood(labels=np.zeros(12, np.int64)), TRUTH) == (0, 1, 1)
+    assert judge_inference(understood(focus=one_off), TRUTH) == (True, False, True, Share(11, 12), 1)
+    assert judge_inference(understood(word_order=WordOrder(1, 0)), TRUTH) == (True, True, False, Share(12, 12), 1)
+    merged = judge_inference(understood(labels=np.zeros(12, np.int64)), TRUTH)
+    assert merged == (False, True, True, Share(12, 12), 0)
+    assert not merged.all_right
+
+
+def test_partitions_are_the_same_whatever_the_groups_are_called() -> None:
+    assert same_partition([0, 0, 1, 2], [5, 5, 0, 1])
+    assert not same_partition([0, 0, 1, 1], [0, 0, 0, 1])
+    assert not same_partition([0, 0, 0], [0, 0, 1])
 
 
 def reading(movement: int, focus: int) -> Reading:
@@ -64,19 +82,23 @@ def test_a_group_without_members_stands_for_nothing() -> None:
 
 
 def test_a_demonstration_obeys_its_own_request_and_no_other() -> None:
-    judge, shown = Judge(TRUTH.templates), SESSION.demonstrations[0]
+    shown = SESSION.demonstrations[0]
     request = TRUTH.requests[0]
     command = SESSION.commands[0]._replace(objects=shown.objects, request=request)
     path = np.concatenate([shown.hand, shown.hand[len(shown.hand) // 2 :]])
-    done = judge.judge(path, command)
+    done = score_path(path, command, TRUTH.templates)
     assert done.obeyed
     assert done.misfit < 0.15
-    other_object = judge.judge(path, command._replace(request=request._replace(focus=(request.focus + 1) % 3)))
-    other_movement = judge.judge(path, command._replace(request=request._replace(movement=(request.movement + 1) % 3)))
+    other_object = score_path(
+        path, command._replace(request=request._replace(focus=(request.focus + 1) % 3)), TRUTH.templates
+    )
+    other_movement = score_path(
+        path, command._replace(request=request._replace(movement=(request.movement + 1) % 3)), TRUTH.templates
+    )
     for wrong in (other_object, other_movement):
         assert not wrong.obeyed
         assert wrong.misfit > done.misfit
 
 
 def test_a_hand_that_rests_has_the_worst_misfit() -> None:
-    assert Judge(TRUTH.templates).judge(np.zeros((501, 2)), SESSION.commands[0]) == (False, 1.0)
+    assert score_path(np.zeros((501, 2)), SESSION.commands[0], TRUTH.templates) == (False, 1.0)

@@ -4,23 +4,27 @@ import shutil
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from signimit.benchmark import shipped_sessions as frozen
-from signimit.benchmark.codec import decode_sessions, encode_sessions
-from signimit.benchmark.sessions import compose_session
 from signimit.benchmark.shipped_sessions import (
+    GRID,
     KIND,
     SESSIONS,
     VERSION,
+    decode_sessions,
+    digest,
+    encode_sessions,
     get_session,
     load_split,
     session_hash,
     split_hash,
 )
-from signimit.benchmark.splits import SPLITS
+from signimit.benchmark.splits import SPLITS, compose_split_session
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.archive import read_archive, write_archive
+from signimit.teaching.sessions import Session
 
 DATA = Path(str(resources.files("signimit.benchmark"))) / "data"
 
@@ -41,7 +45,7 @@ def test_twenty_sessions_of_every_split_are_shipped_in_less_than_three_megabytes
 @pytest.mark.parametrize("name", ["paper", "unseen-person", "many", "counterfactual"])
 def test_the_recipe_still_makes_what_is_shipped(name: str) -> None:
     """If not, numpy's or our random numbers changed: what is shipped stays what counts, more of it cannot be made."""
-    made = decode_sessions(SPLITS[name], encode_sessions([compose_session(SPLITS[name], 7)]))[0]
+    made = decode_sessions(SPLITS[name], encode_sessions([compose_split_session(SPLITS[name], 7)]))[0]
     assert session_hash(made) == session_hash(get_session(SPLITS[name], 7))
 
 
@@ -86,3 +90,58 @@ def test_freezing_writes_what_loading_reads(tmp_path: Path, monkeypatch: pytest.
     made = load_split("few", tmp_path)
     shipped = load_split("few")[:2]
     assert [session_hash(s) for s in made] == [session_hash(s) for s in shipped]
+
+
+@pytest.fixture(scope="module", params=["paper", "filler-word", "counterfactual"])
+def sessions(request: pytest.FixtureRequest) -> list[Session]:
+    return [compose_split_session(SPLITS[request.param], seed) for seed in (0, 1)]
+
+
+def test_what_comes_back_is_what_went_in_to_half_the_grid(sessions: list[Session]) -> None:
+    back = decode_sessions(sessions[0].condition, encode_sessions(sessions))
+    assert [s.seed for s in back] == [0, 1]
+    for ours, theirs in zip(back, sessions, strict=True):
+        for a, b in zip(ours.demonstrations, theirs.demonstrations, strict=True):
+            for x, y in zip((*a.signs, a.hand, a.objects), (*b.signs, b.hand, b.objects), strict=True):
+                np.testing.assert_allclose(x, y, rtol=0, atol=0.5001 * GRID)
+            np.testing.assert_array_equal(a.times, b.times)
+        for c, d in zip(ours.commands, theirs.commands, strict=True):
+            for x, y in zip((*c.signs, c.objects, c.hand), (*d.signs, d.objects, d.hand), strict=True):
+                np.testing.assert_allclose(x, y, rtol=0, atol=0.5001 * GRID)
+            assert (c.request, c.family) == (d.request, d.family)
+        for p, q in zip(ours.prototypes, theirs.prototypes, strict=True):
+            np.testing.assert_allclose(p.points, q.points, rtol=0, atol=0.5001 * GRID)
+
+
+def test_the_drawings_to_judge_by_are_found_again_in_the_paths(sessions: list[Session]) -> None:
+    back = decode_sessions(sessions[0].condition, encode_sessions(sessions))
+    for ours, theirs in zip(back, sessions, strict=True):
+        assert ours.truth.requests == theirs.truth.requests
+        for a, b in zip(ours.truth.templates, theirs.truth.templates, strict=True):
+            for x, y in zip(a, b, strict=True):
+                np.testing.assert_allclose(x, y, rtol=0, atol=1.0001 * GRID)
+
+
+def test_coding_again_changes_nothing(sessions: list[Session]) -> None:
+    arrays = encode_sessions(sessions)
+    assert digest(encode_sessions(decode_sessions(sessions[0].condition, arrays))) == digest(arrays)
+
+
+def test_nothing_that_an_entry_sees_can_be_written_to(sessions: list[Session]) -> None:
+    (session, _) = decode_sessions(sessions[0].condition, encode_sessions(sessions))
+    seen = [
+        *(p.points for p in session.prototypes),
+        *(a for c in session.commands for a in (*c.signs, c.objects, c.hand)),
+    ]
+    seen += [a for d in session.demonstrations for a in (*d.signs, d.objects, d.hand, d.times)]
+    assert not any(array.flags.writeable for array in seen)
+
+
+def test_the_digest_knows_every_number_but_not_the_byte_order(sessions: list[Session]) -> None:
+    arrays = encode_sessions(sessions)
+    swapped = {name: a.astype(a.dtype.newbyteorder(">")) for name, a in arrays.items()}
+    assert digest(swapped) == digest(arrays)
+    for name, array in arrays.items():
+        changed = array.copy()
+        changed.flat[-1] += 1
+        assert digest(arrays | {name: changed}) != digest(arrays)

@@ -3,12 +3,31 @@
 import numpy as np
 import pytest
 
-from signimit.benchmark.statistics import STAGES, Estimate, estimate_misfit, estimate_share, estimate_stage
-from signimit.intervals import wilson_interval
+from signimit.benchmark.statistics import (
+    STAGES,
+    Estimate,
+    Share,
+    estimate_misfit,
+    estimate_share,
+    estimate_stage,
+    wilson_interval,
+)
 
 
 def interval(found: Estimate) -> tuple[float, float, float]:
     return found.mean, found.low, found.high
+
+
+def test_wilson_intervals_match_numbers_worked_by_hand() -> None:
+    assert wilson_interval(20, 20) == pytest.approx((0.8389, 1.0), abs=1e-4)
+    assert wilson_interval(5, 10) == pytest.approx((0.2366, 0.7634), abs=1e-4)
+    assert wilson_interval(0, 0) == (0, 1)
+
+
+def test_a_share_knows_its_interval() -> None:
+    assert Share(36, 36).interval == pytest.approx((0.9036, 1.0), abs=1e-4)
+    assert Share(0, 0).interval == (0.0, 1.0)
+    assert str(Share(5, 10)) == "5 of 10 (95 % interval 0.24 to 0.76)"
 
 
 def test_independent_commands_count_each() -> None:

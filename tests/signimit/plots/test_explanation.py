@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from signimit import ImitationModel, InvalidInputError, learn
-from signimit.benchmark.studies.cells import Cell, compose_session
+from signimit.benchmark.studies.conditions import compose_study_session, study_condition
 from signimit.learners.base import Belief
 from signimit.plots.explanation import draw_explanation
 
-SESSION = compose_session(Cell(movements=3, objects=2, repetitions=1), 1)
+SESSION = compose_study_session(study_condition(3, 2, 1), 1)
 
 
 @pytest.fixture(scope="module")

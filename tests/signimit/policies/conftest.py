@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit.teaching.composition import Language, compose_loops, compose_path
+from signimit.teaching.composition import compose_loops, compose_path
+from signimit.teaching.languages import Language
 from signimit.teaching.people import synthetic_library
 
 Array = NDArray[np.float64]

@@ -79,9 +79,9 @@ def test_no_stroke_is_shown_twice(session: tuple[DemonstrationSet, GroundTruth])
     assert len(set(loops)) == 24
 
 
-def test_a_shared_deck_remembers_across_calls(signs: StrokeLibrary) -> None:
-    deck, rng = StrokeSampler(signs), np.random.default_rng(0)
-    asked = [compose_utterance(PAPER_LANGUAGE, deck, 0, 0, rng)[0].tobytes() for _ in range(8)]
+def test_a_shared_sampler_remembers_across_calls(signs: StrokeLibrary) -> None:
+    sampler, rng = StrokeSampler(signs), np.random.default_rng(0)
+    asked = [compose_utterance(PAPER_LANGUAGE, sampler, 0, 0, rng)[0].tobytes() for _ in range(8)]
     assert len(set(asked)) == 8
 
 

@@ -45,3 +45,7 @@ def test_a_filler_makes_three_words() -> None:
 def test_what_is_no_language_is_refused(fields: dict[str, object], match: str) -> None:
     with pytest.raises(InvalidInputError, match=match):
         Language(**fields)  # type: ignore[arg-type]
+
+
+def test_the_signs_of_a_language_come_once_each() -> None:
+    assert PAPER_LANGUAGE.signs == tuple("123456789")

@@ -14,6 +14,7 @@ import pytest
 
 import signimit as si
 from signimit.teaching.languages import Request
+from signimit.teaching.sessions import Command
 from signimit_envs import ENV_IDS, RenderingError, TabletopHandEnv, reproduce
 from signimit_envs.recording import (
     STATE_SPEC,
@@ -25,7 +26,6 @@ from signimit_envs.recording import (
     save_recording,
 )
 from signimit_envs.recording.episodes import episode_arrays, episode_from_arrays
-from signimit_envs.sessions.session import Command, Scene
 
 Same = Callable[[Recording, Recording], None]
 
@@ -171,7 +171,7 @@ def test_a_reproduction_is_recorded_as_it_happens_without_a_recorder() -> None:
         for focus, movement in [(0, 0), (0, 1), (1, 0), (1, 1)] * 2
     ]
     model = si.learn(si.DemonstrationSet(demonstrations), rng=0)
-    command = Command(Request(0, 1), (strokes[1], strokes[2]), Scene(objects, np.array([0.1, -0.1])), True)
+    command = Command(Request(0, 1), (strokes[1], strokes[2]), objects, np.array([0.1, -0.1]))
     recording = record_reproductions(model, [command], 2.0, si.Language(focus_signs=("1", "2")))
     (episode,) = recording
     assert len(episode) == 100

@@ -11,10 +11,10 @@ import signimit
 from signimit.signs import normalised_sign
 from signimit.teaching.languages import Request
 from signimit_envs.tabletop.language_options import MOVEMENTS, digit_language
-from signimit_envs.tabletop.people import People
+from signimit_envs.tabletop.people import choose_tabletop_people
 from signimit_envs.tabletop.reset_options import draw_situation
 
-PEOPLE = People.sample(digit_language(3, MOVEMENTS), np.random.default_rng(0))
+PEOPLE = choose_tabletop_people(digit_language(3, MOVEMENTS), np.random.default_rng(0))
 WAVE = np.column_stack([np.linspace(0, 1, 30), np.sin(np.linspace(0, 6, 30))])
 
 
@@ -60,7 +60,7 @@ def test_the_first_sign_names_the_object_and_the_second_the_movement() -> None:
         signs = PEOPLE.speak(Request(movement, focus), np.random.default_rng(3))
         rng = np.random.default_rng(3)
         for sign, word in zip(signs, (str(focus + 1), str(movement + 4)), strict=True):
-            np.testing.assert_array_equal(sign, PEOPLE.interactant.draw(word, rng).points)
+            np.testing.assert_array_equal(sign, PEOPLE.signs.draw(word, rng).points)
 
 
 @pytest.mark.parametrize(

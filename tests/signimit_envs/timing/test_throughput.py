@@ -23,7 +23,7 @@ def work() -> Work:
 
 
 def test_there_is_as_much_work_as_asked_for_each_in_its_own_scene(work: Work) -> None:
-    assert len(work.policies) == len(work.scenes) == 12
+    assert len(work.policies) == len(work.commands) == 12
     assert len({hand.tobytes() for hand in work.hands}) == 12
     assert len({policy.place.tobytes() for policy in work.policies}) == 12
 

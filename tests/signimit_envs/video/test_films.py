@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit.teaching.people.casting import cast_people
+from signimit.teaching.people.choosing import choose_people
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
 from signimit_envs.video.films import Film, film_grid, film_shots, film_story
@@ -28,7 +28,7 @@ SIGN = np.array([[0, 0], [1, 2], [3, 1.0]])
 
 @pytest.fixture(scope="module")
 def result() -> SessionResult:
-    return run_session(PLAN, cast_people(PLAN.language, np.random.default_rng(0)))
+    return run_session(PLAN, choose_people(PLAN.language, np.random.default_rng(0)))
 
 
 def colours(picture: NDArray[np.uint8]) -> set[tuple[int, ...]]:

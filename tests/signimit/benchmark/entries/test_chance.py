@@ -5,13 +5,11 @@ from typing import Any
 import numpy as np
 
 from signimit.benchmark.obeying import obey
-from signimit.benchmark.sessions import BenchmarkSession
 from signimit.evaluation import performed
+from signimit.teaching.sessions import Session
 
 
-def test_chance_draws_a_shown_movement_about_the_object_it_guessed(
-    paper_session: BenchmarkSession, observed: Any
-) -> None:
+def test_chance_draws_a_shown_movement_about_the_object_it_guessed(paper_session: Session, observed: Any) -> None:
     entry, about = observed("chance", paper_session), []
     for command in paper_session.commands:
         path = obey(entry, command)
@@ -21,7 +19,7 @@ def test_chance_draws_a_shown_movement_about_the_object_it_guessed(
     assert len({guessed for _, guessed in about}) > 1
 
 
-def test_guesses_have_nothing_to_do_with_the_signs(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_guesses_have_nothing_to_do_with_the_signs(paper_session: Session, observed: Any) -> None:
     first, second = (observed("chance", paper_session) for _ in range(2))
     a, b = paper_session.commands[0], paper_session.commands[1]
     first.begin(a.signs, a.objects)

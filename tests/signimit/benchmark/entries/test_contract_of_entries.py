@@ -6,15 +6,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from signimit.benchmark.entries import ENTRANTS
+from signimit.benchmark.entries import ENTRANTS, EntrantReference
 from signimit.benchmark.obeying import obey
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle
-from signimit.benchmark.registry import EntrantReference
 from signimit.benchmark.running import Task, make_entry, run_task
-from signimit.benchmark.sessions import BenchmarkSession, Lesson
 from signimit.demonstrations import DemonstrationSet
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Language, Request
+from signimit.teaching.sessions import Session
 
 FAST = [name for name in ENTRANTS if name != "clone-mlp" and not name.startswith("deep")]
 
@@ -25,7 +24,7 @@ def name(request: pytest.FixtureRequest) -> str:
 
 
 @pytest.fixture(scope="module")
-def entry(name: str, paper_session: BenchmarkSession, observed: Any) -> Entry:
+def entry(name: str, paper_session: Session, observed: Any) -> Entry:
     return observed(name, paper_session)  # type: ignore[no-any-return]
 
 
@@ -34,7 +33,7 @@ def test_names_are_those_of_the_table() -> None:
     assert {"joint", "paper", "paper-literal", "chance", "replay"} <= set(ENTRANTS)
 
 
-def test_the_same_session_gives_the_same_bytes(name: str, paper_session: BenchmarkSession, observed: Any) -> None:
+def test_the_same_session_gives_the_same_bytes(name: str, paper_session: Session, observed: Any) -> None:
     once, again = (
         [obey(entry, command, 0.5).tobytes() for command in paper_session.commands[:2]]
         for entry in (observed(name, paper_session) for _ in range(2))
@@ -42,7 +41,7 @@ def test_the_same_session_gives_the_same_bytes(name: str, paper_session: Benchma
     assert once == again
 
 
-def test_velocities_are_finite_wherever_the_hand_is(entry: Entry, paper_session: BenchmarkSession) -> None:
+def test_velocities_are_finite_wherever_the_hand_is(entry: Entry, paper_session: Session) -> None:
     for command in paper_session.commands[:3]:
         entry.begin(command.signs, command.objects)
         for hand in (command.objects[0], np.array([1.5, -2.0]), np.zeros(2)):
@@ -51,7 +50,7 @@ def test_velocities_are_finite_wherever_the_hand_is(entry: Entry, paper_session:
             assert np.isfinite(velocity).all()
 
 
-def test_what_is_given_is_left_as_it_was(entry: Entry, paper_session: BenchmarkSession) -> None:
+def test_what_is_given_is_left_as_it_was(entry: Entry, paper_session: Session) -> None:
     command = paper_session.commands[0]
     signs, objects = tuple(s.copy() for s in command.signs), command.objects.copy()
     entry.begin(signs, objects)
@@ -63,7 +62,7 @@ def test_what_is_given_is_left_as_it_was(entry: Entry, paper_session: BenchmarkS
 
 
 def test_an_ordinary_entry_is_given_nothing_that_leads_to_labels(
-    paper_session: BenchmarkSession, monkeypatch: pytest.MonkeyPatch
+    paper_session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     given: list[Any] = []
 
@@ -117,8 +116,7 @@ def test_every_row_that_is_told_something_says_so() -> None:
         assert isinstance(entrant, Oracle) == name.startswith("oracle"), name
 
 
-def test_only_an_oracle_is_told_the_truth(paper_session: BenchmarkSession) -> None:
-    lesson = Lesson(paper_session.demonstrations, paper_session.truth)
+def test_only_an_oracle_is_told_the_truth(paper_session: Session) -> None:
     told: list[Any] = []
 
     def make_oracle(kit: Kit, truth: Any) -> Any:
@@ -127,8 +125,8 @@ def test_only_an_oracle_is_told_the_truth(paper_session: BenchmarkSession) -> No
     def make_entrant(kit: Kit, *more: Any) -> Any:
         told.extend(more)
 
-    make_entry(Entrant(name="honest", title="", make=make_entrant), paper_session, lesson)
+    make_entry(Entrant(name="honest", title="", make=make_entrant), paper_session)
     assert told == []
-    make_entry(Oracle(name="oracle", title="", make=make_oracle), paper_session, lesson)
+    make_entry(Oracle(name="oracle", title="", make=make_oracle), paper_session)
     assert told[0].shown is paper_session.truth
     assert told[0].asked == tuple(command.request for command in paper_session.commands)

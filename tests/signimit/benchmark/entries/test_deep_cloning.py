@@ -10,8 +10,8 @@ from signimit.benchmark.entries import ENTRANTS
 from signimit.benchmark.entries.samples import samples_of
 from signimit.benchmark.obeying import obey
 from signimit.benchmark.protocol import Entrant, Observation
-from signimit.benchmark.sessions import BenchmarkSession
 from signimit.exceptions import MissingDependencyError
+from signimit.teaching.sessions import Session
 
 DEEP = [name for name in ENTRANTS if name.startswith("deep")]
 
@@ -30,7 +30,7 @@ def name(request: pytest.FixtureRequest) -> str:
 
 
 def test_the_same_session_gives_the_same_bytes_whatever_the_settings(
-    name: str, torch: Any, paper_session: BenchmarkSession, observed: Any
+    name: str, torch: Any, paper_session: Session, observed: Any
 ) -> None:
     command = paper_session.commands[0]
     torch.manual_seed(1)
@@ -40,9 +40,7 @@ def test_the_same_session_gives_the_same_bytes_whatever_the_settings(
     assert np.isfinite(first).all()
 
 
-def test_settings_and_random_state_are_left_as_they_were(
-    torch: Any, paper_session: BenchmarkSession, observed: Any
-) -> None:
+def test_settings_and_random_state_are_left_as_they_were(torch: Any, paper_session: Session, observed: Any) -> None:
     before = torch.get_rng_state(), torch.get_num_threads(), torch.are_deterministic_algorithms_enabled()
     observed("deep-12", paper_session)
     after = torch.get_rng_state(), torch.get_num_threads(), torch.are_deterministic_algorithms_enabled()
@@ -51,7 +49,7 @@ def test_settings_and_random_state_are_left_as_they_were(
 
 
 def test_a_step_of_the_hand_is_what_the_network_computes(
-    name: str, torch: Any, paper_session: BenchmarkSession, observed: Any
+    name: str, torch: Any, paper_session: Session, observed: Any
 ) -> None:
     from signimit.benchmark.entries.deep_cloning import NEAR, SPEED
     from signimit.benchmark.entries.deep_network import sign_channels
@@ -67,7 +65,7 @@ def test_a_step_of_the_hand_is_what_the_network_computes(
 
 
 def test_it_moves_more_as_was_shown_than_a_resting_hand(
-    name: str, torch: Any, paper_session: BenchmarkSession, observed: Any, monkeypatch: pytest.MonkeyPatch
+    name: str, torch: Any, paper_session: Session, observed: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("signimit.benchmark.entries.deep_cloning.STEPS", 100)
     entry, samples = observed(name, paper_session), samples_of(paper_session.demonstrations)

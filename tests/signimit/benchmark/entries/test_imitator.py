@@ -4,11 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from signimit.benchmark.entries import ENTRANTS
-from signimit.benchmark.registry import refer_to
+from signimit.benchmark.entries import ENTRANTS, refer_to
 from signimit.benchmark.running import Task, run_task
-from signimit.benchmark.sessions import BenchmarkSession
 from signimit.learning import learn
+from signimit.teaching.sessions import Session
 
 
 def test_the_default_obeys_all_nine_pairs() -> None:
@@ -17,7 +16,7 @@ def test_the_default_obeys_all_nine_pairs() -> None:
     assert record["read"] == [2] * 9
 
 
-def test_an_entry_answers_as_the_model_does(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_an_entry_answers_as_the_model_does(paper_session: Session, observed: Any) -> None:
     entry = observed("joint", paper_session)
     model = learn(paper_session.demonstrations)
     assert np.array_equal(entry.understanding.labels, model.labels)
@@ -28,7 +27,7 @@ def test_an_entry_answers_as_the_model_does(paper_session: BenchmarkSession, obs
         assert entry.reading.focus.argmax() == response.focus
 
 
-def test_the_papers_policy_is_its_own_and_the_other_ours(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_the_papers_policy_is_its_own_and_the_other_ours(paper_session: Session, observed: Any) -> None:
     kinds = {}
     for name in ("joint", "paper", "paper-path", "paper-literal"):
         entry = observed(name, paper_session)

@@ -6,24 +6,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.benchmark.entries import refer_to
 from signimit.benchmark.entries.knn_cloning import NEAR, NEIGHBOURS
 from signimit.benchmark.entries.samples import samples_of, utterance_features
 from signimit.benchmark.protocol import Observation
-from signimit.benchmark.registry import refer_to
 from signimit.benchmark.running import Task, run_task
-from signimit.benchmark.sessions import BenchmarkSession
+from signimit.teaching.sessions import Session
 
 
-def test_the_velocity_is_the_weighted_mean_of_the_most_similar_moments(
-    paper_session: BenchmarkSession, observed: Any
-) -> None:
+def test_the_velocity_is_the_weighted_mean_of_the_most_similar_moments(paper_session: Session, observed: Any) -> None:
     entry, command = observed("clone-knn", paper_session), paper_session.commands[0]
     entry.begin(command.signs, command.objects)
     given = entry.act(Observation(command.hand, np.zeros(2), 0.0))
     np.testing.assert_allclose(given, _by_definition(paper_session, command), atol=1e-9)
 
 
-def _by_definition(session: BenchmarkSession, command: Any) -> NDArray[np.float64]:
+def _by_definition(session: Session, command: Any) -> NDArray[np.float64]:
     samples, moments = samples_of(session.demonstrations), []
     asked = utterance_features(command.signs)
     unlike = [np.linalg.norm(utterance_features(shown.signs) - asked) for shown in session.demonstrations]

@@ -10,8 +10,8 @@ from signimit.benchmark.entries import ENTRANTS
 from signimit.benchmark.entries.samples import samples_of
 from signimit.benchmark.obeying import obey
 from signimit.benchmark.protocol import Entrant, Kit, Observation
-from signimit.benchmark.sessions import BenchmarkSession
 from signimit.exceptions import MissingDependencyError
+from signimit.teaching.sessions import Session
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def short_training(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("short_training")
-def test_it_moves_as_was_shown_where_it_was_shown(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_it_moves_as_was_shown_where_it_was_shown(paper_session: Session, observed: Any) -> None:
     entry = observed("clone-mlp", paper_session)
     left, all_of_it = 0.0, 0.0
     samples = samples_of(paper_session.demonstrations)
@@ -35,14 +35,14 @@ def test_it_moves_as_was_shown_where_it_was_shown(paper_session: BenchmarkSessio
 
 
 @pytest.mark.usefixtures("short_training")
-def test_the_same_session_gives_the_same_bytes(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_the_same_session_gives_the_same_bytes(paper_session: Session, observed: Any) -> None:
     paths = [obey(observed("clone-mlp", paper_session), paper_session.commands[0], 1.0) for _ in range(2)]
     assert paths[0].tobytes() == paths[1].tobytes()
     assert np.isfinite(paths[0]).all()
 
 
 @pytest.mark.usefixtures("short_training")
-def test_one_demonstration_is_enough_to_train(paper_session: BenchmarkSession, kit: Kit) -> None:
+def test_one_demonstration_is_enough_to_train(paper_session: Session, kit: Kit) -> None:
     entrant, command = ENTRANTS["clone-mlp"], paper_session.commands[0]
     assert isinstance(entrant, Entrant)
     entry = entrant.make(kit)

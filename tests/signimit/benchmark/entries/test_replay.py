@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from signimit.benchmark.entries import refer_to
 from signimit.benchmark.obeying import obey
-from signimit.benchmark.registry import refer_to
 from signimit.benchmark.running import Task, run_task
-from signimit.benchmark.sessions import BenchmarkSession
+from signimit.teaching.sessions import Session
 
 
-def test_replay_ignores_the_objects(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_replay_ignores_the_objects(paper_session: Session, observed: Any) -> None:
     entry, command = observed("replay", paper_session), paper_session.commands[0]
     here = obey(entry, command, 4.0)
     elsewhere = obey(entry, command._replace(objects=command.objects[::-1] + 0.1), 4.0)
@@ -19,7 +19,7 @@ def test_replay_ignores_the_objects(paper_session: BenchmarkSession, observed: A
 
 
 @pytest.mark.parametrize("name", ["replay", "replay-nearby"])
-def test_the_signs_of_a_demonstration_bring_it_back(name: str, paper_session: BenchmarkSession, observed: Any) -> None:
+def test_the_signs_of_a_demonstration_bring_it_back(name: str, paper_session: Session, observed: Any) -> None:
     entry = observed(name, paper_session)
     command = paper_session.commands[0]
     for shown in paper_session.demonstrations[:4]:
@@ -29,7 +29,7 @@ def test_the_signs_of_a_demonstration_bring_it_back(name: str, paper_session: Be
         assert np.median(gaps) < 0.02
 
 
-def test_the_nearby_replay_goes_where_the_objects_go(paper_session: BenchmarkSession, observed: Any) -> None:
+def test_the_nearby_replay_goes_where_the_objects_go(paper_session: Session, observed: Any) -> None:
     entry, command = observed("replay-nearby", paper_session), paper_session.commands[0]
     shift = np.array([0.05, -0.03])
     here = obey(entry, command, 4.0)

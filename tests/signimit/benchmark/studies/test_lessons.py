@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 
 from signimit.benchmark.studies.asking import STRATEGIES, Lesson, Question, run_lessons
-from signimit.benchmark.studies.cells import Cell
+from signimit.benchmark.studies.conditions import study_condition
 from signimit.benchmark.studies.tables import LessonRow, demonstrations_needed, tabulate_lessons
 from signimit.demonstrations import DemonstrationSet
 from signimit.learning import learn
 from signimit.teaching.languages import Request
 
-CELL = Cell(movements=3, objects=2, repetitions=1)
+CONDITION = study_condition(3, 2, 1)
 
 
 def test_a_lesson_begins_with_every_sign_once() -> None:
-    lesson = Lesson(Cell(movements=5, objects=3, repetitions=1), 4, None)
+    lesson = Lesson(study_condition(5, 3, 1), 4)
     assert len(lesson.requests) == 5
     assert {r.movement for r in lesson.requests} == set(range(5))
     assert {r.focus for r in lesson.requests} == set(range(3))
@@ -22,7 +22,7 @@ def test_a_lesson_begins_with_every_sign_once() -> None:
 
 @pytest.mark.parametrize("name", STRATEGIES)
 def test_every_strategy_asks_for_something_that_can_be_shown(name: str) -> None:
-    lesson = Lesson(CELL, 1, None)
+    lesson = Lesson(CONDITION, 1)
     model = learn(DemonstrationSet(lesson.demonstrations), policy="knn")
     scenes = lesson.scenes(3)
     question = STRATEGIES[name](lesson, model, scenes)
@@ -35,7 +35,7 @@ def test_every_strategy_asks_for_something_that_can_be_shown(name: str) -> None:
 
 def test_copied_signs_mean_what_they_meant_whatever_the_word_order() -> None:
     for seed in (0, 1):
-        lesson = Lesson(CELL, seed, None)
+        lesson = Lesson(CONDITION, seed)
         lesson.requests[:2] = [Request(0, 1), Request(2, 0)]
         copied = [0, 0]
         copied[lesson.language.movement_word] = 1
@@ -43,14 +43,14 @@ def test_copied_signs_mean_what_they_meant_whatever_the_word_order() -> None:
 
 
 def test_a_model_of_every_pair_understands_what_it_is_asked() -> None:
-    lesson = Lesson(CELL, 3, None)
+    lesson = Lesson(CONDITION, 3)
     for request in lesson.language.requests * 2:
         lesson.show(Question(request, lesson.scenes(1)[0]))
     assert lesson.accuracy(learn(DemonstrationSet(lesson.demonstrations), policy="knn")) == 1.0
 
 
 def test_all_strategies_start_from_the_same_demonstrations() -> None:
-    record = run_lessons(Cell(movements=2, objects=2, repetitions=1), 0, None)
+    record = run_lessons(study_condition(2, 2, 1), 0)
     curves = list(record["curves"].values())
     assert record["first"] == 2
     assert len({curve[0] for curve in curves}) == 1

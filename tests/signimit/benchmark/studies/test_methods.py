@@ -6,8 +6,8 @@ from numpy.typing import NDArray
 
 pytest.importorskip("sklearn", reason="the baselines need scikit-learn")
 
-from signimit.benchmark.studies.cells import Cell, compose_session
-from signimit.benchmark.studies.methods import BASELINES, CLUSTERINGS, Evidence, answer
+from signimit.benchmark.studies.conditions import compose_study_session, study_condition
+from signimit.benchmark.studies.methods import BASELINES, CLUSTERINGS, SharedDistances, infer
 from signimit.grouping import canonical_labels
 
 TRUTH = np.array([0, 0, 1, 2, 1, 2, 0, 1, 2])
@@ -28,15 +28,15 @@ def test_planted_groups_are_found(name: str) -> None:
 
 
 @pytest.fixture(scope="module")
-def evidence() -> Evidence:
-    return Evidence(compose_session(Cell(movements=2, objects=2, repetitions=1), 0), 0)
+def distances() -> SharedDistances:
+    return SharedDistances(compose_study_session(study_condition(2, 2, 1), 0), 0)
 
 
 @pytest.mark.parametrize("method", BASELINES)
-def test_every_baseline_answers_and_answers_the_same_again(evidence: Evidence, method: str) -> None:
-    first, again = answer(evidence, method), answer(evidence, method)
+def test_every_baseline_answers_and_answers_the_same_again(distances: SharedDistances, method: str) -> None:
+    first, again = infer(distances, method), infer(distances, method)
     assert first.labels.shape == first.focus.shape == (4,)
-    assert set(first.order) == {0, 1}
+    assert set(first.word_order) == {0, 1}
     np.testing.assert_array_equal(first.labels, again.labels)
     np.testing.assert_array_equal(first.focus, again.focus)
     assert set(first.labels.tolist()) == set(range(first.labels.max() + 1))

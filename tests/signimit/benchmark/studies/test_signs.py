@@ -41,5 +41,5 @@ def test_signs_that_mean_nothing_are_read_at_random(monkeypatch: pytest.MonkeyPa
 
 def test_nobody_with_enough_signs_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     few = synthetic_library((*"123789",), rng=np.random.default_rng(0), samples=2)
-    with pytest.raises(InvalidInputError, match="somebody who drew"):
+    with pytest.raises(InvalidInputError, match="everybody: expected at least 3 strokes each of"):
         list(run_quizzes(few, quizzes=1))

@@ -15,7 +15,8 @@ from signimit.learners.joint.distances import measure_distances
 from signimit.learners.joint.learner import EvidenceCache, Scale
 from signimit.learners.joint.search import score_explanation
 from signimit.strokes import StrokeLibrary
-from signimit.teaching.composition import GroundTruth, Language, Request, compose_demonstrations, compose_utterance
+from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_utterance
+from signimit.teaching.languages import Language, Request
 from signimit.teaching.people import synthetic_library
 
 Array = NDArray[np.float64]

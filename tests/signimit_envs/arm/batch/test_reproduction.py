@@ -14,11 +14,12 @@ import signimit
 from signimit.evaluation import performed
 from signimit.learning import learn
 from signimit.policies import PlacedPolicy
-from signimit.teaching.people.casting import cast_people
+from signimit.teaching.people.choosing import choose_people
+from signimit.teaching.sessions import Session
 from signimit_envs import TabletopHandEnv, reproduce
 from signimit_envs.arm.batch import HandTracks, reproduce_many
 from signimit_envs.arm.batch.physics import ManyArms
-from signimit_envs.sessions.session import Session, SessionPlan, compose_session
+from signimit_envs.sessions.session import SessionPlan
 
 SECONDS = 4.0
 Array = NDArray[np.float64]
@@ -27,18 +28,18 @@ Array = NDArray[np.float64]
 @pytest.fixture(scope="module")
 def session() -> Session:
     plan = SessionPlan(method="joint", attempts=1, seconds=SECONDS)
-    return compose_session(plan, cast_people(plan.language, np.random.default_rng(0)))
+    return plan.compose(choose_people(plan.language, np.random.default_rng(0)))
 
 
 @pytest.fixture(scope="module")
 def policies(session: Session) -> list[PlacedPolicy]:
-    model = learn(session.demonstrations, session.prototypes, session.plan.method)
-    return [model.respond(command.signs, command.scene.objects).policy for command in session.commands]
+    model = learn(session.demonstrations, session.prototypes, "joint")
+    return [model.respond(command.signs, command.objects).policy for command in session.commands]
 
 
 @pytest.fixture(scope="module")
 def hands(session: Session) -> Array:
-    return np.array([command.scene.hand for command in session.commands])
+    return np.array([command.hand for command in session.commands])
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +61,8 @@ def test_hands_go_where_mink_takes_them_one_at_a_time_and_the_verdicts_are_the_s
         one = reproduce(
             env,
             policy,
-            *command.scene,
+            command.objects,
+            command.hand,
             SECONDS,
             each_step=lambda: joints.append(env.data.qpos.copy()),  # noqa: B023
         )
@@ -68,7 +70,7 @@ def test_hands_go_where_mink_takes_them_one_at_a_time_and_the_verdicts_are_the_s
         assert np.hypot(*(path - one.path).T).max() <= 0.5e-3
         np.testing.assert_allclose(tracks.commanded[number], one.commanded, atol=0.5e-3)
         np.testing.assert_allclose(tracks.joints[number], joints, atol=1e-3)
-        verdicts = [performed(p, command.scene.objects, templates)[:2] for p in (path, one.path)]
+        verdicts = [performed(p, command.objects, templates)[:2] for p in (path, one.path)]
         assert verdicts[0] == verdicts[1] == command.request
     env.close()
 

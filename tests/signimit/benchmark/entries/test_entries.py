@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from signimit import InvalidInputError, UnknownNameError
+from signimit.benchmark.entries import ENTRANTS, EntrantReference, get_entrant, refer_to
 from signimit.benchmark.protocol import Entrant, Kit
-from signimit.benchmark.registry import EntrantReference, entrant_names, get_entrant, refer_to
 
 OWN = """
 from dataclasses import dataclass, field
@@ -45,7 +45,7 @@ def made(reference: EntrantReference, kit: Kit) -> object:
 
 
 def test_every_registered_name_leads_to_an_entrant_of_that_name() -> None:
-    for name in entrant_names():
+    for name in ENTRANTS:
         assert get_entrant(refer_to(name)).name == name
 
 

@@ -10,8 +10,7 @@ import pytest
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.languages import PAPER_LANGUAGE
-from signimit.teaching.people import synthetic_library
-from signimit.teaching.people.casting import Source, cast_people, load_person, sign_labels, with_both_triangles
+from signimit.teaching.people.choosing import Source, choose_people, load_person
 
 
 def rng() -> np.random.Generator:
@@ -29,22 +28,10 @@ def shapes(tmp_path: Path) -> Path:
 
 
 def test_synthetic_people_draw_everything_the_language_needs_and_are_called_synthetic() -> None:
-    cast = cast_people(PAPER_LANGUAGE, rng())
-    assert set(cast.signs.labels) == {*"123456789"}
-    assert set(cast.movements.labels) == set(PAPER_LANGUAGE.movements)
-    assert all("synthetic" in name for name in cast.names)
-
-
-def test_a_triangle_down_is_the_mirror_of_an_apex_up_triangle(shapes: Path) -> None:
-    library = with_both_triangles(StrokeLibrary.load(shapes))
-    up, down = library.select("triangle up")[0], library.select("triangle down")[0]
-    np.testing.assert_array_equal(up.points, StrokeLibrary.load(shapes)[0].points)
-    np.testing.assert_array_equal(down.points, up.points * (1, -1))
-
-
-def test_triangles_that_have_a_direction_stay_as_they_are() -> None:
-    library = synthetic_library(["triangle up", "triangle down"], samples=2, rng=rng())
-    assert with_both_triangles(library) is library
+    people = choose_people(PAPER_LANGUAGE, rng())
+    assert set(people.signs.labels) == {*"123456789"}
+    assert set(people.movements.labels) == set(PAPER_LANGUAGE.movements)
+    assert all("synthetic" in name for name in people.names)
 
 
 def test_anybody_is_somebody_who_drew_everything(shapes: Path) -> None:
@@ -71,14 +58,24 @@ def test_an_unknown_person_is_told_who_is_there(shapes: Path) -> None:
 
 def test_a_person_without_a_library_is_refused() -> None:
     with pytest.raises(InvalidInputError, match="a stroke library"):
-        cast_people(PAPER_LANGUAGE, rng(), Source(None, "a"))
+        choose_people(PAPER_LANGUAGE, rng(), Source(None, "a"))
 
 
 def test_another_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x.npz").write_bytes(b"no")
     with pytest.raises(FileFormatError, match="stroke library"):
-        cast_people(PAPER_LANGUAGE, rng(), Source(tmp_path / "x.npz"))
+        choose_people(PAPER_LANGUAGE, rng(), Source(tmp_path / "x.npz"))
 
 
-def test_the_labels_of_a_language_come_once_each() -> None:
-    assert sign_labels(PAPER_LANGUAGE) == tuple("123456789")
+def test_a_library_at_hand_serves_as_well_as_its_file(shapes: Path) -> None:
+    of_file, _ = load_person(Source(shapes), ("circle",), rng())
+    of_library, name = load_person(Source(StrokeLibrary.load(shapes)), ("circle",), rng())
+    assert name.startswith("a of ")
+    assert [s.points.tobytes() for s in of_library] == [s.points.tobytes() for s in of_file]
+
+
+def test_somebody_who_drew_too_little_is_not_chosen(shapes: Path) -> None:
+    with pytest.raises(
+        InvalidInputError, match="everybody: expected at least 2 strokes each of circle, found fewer of circle"
+    ):
+        load_person(Source(shapes), ("circle",), rng(), least=2)

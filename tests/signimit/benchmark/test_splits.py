@@ -4,24 +4,29 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit.benchmark.casts import another_style, same_people, strangers
-from signimit.benchmark.sessions import BenchmarkSession, compose_session, entry_stream, with_more_demonstrations
-from signimit.benchmark.splits import SPLITS, choose_splits
-from signimit.benchmark.studies.cells import CROWD
+from signimit.benchmark.splits import (
+    SPLITS,
+    choose_splits,
+    compose_split_session,
+    entry_stream,
+    with_more_demonstrations,
+)
 from signimit.exceptions import UnknownNameError
 from signimit.teaching.languages import PAPER_LANGUAGE
+from signimit.teaching.people.choosing import CROWD, another_style, same_people, strangers
+from signimit.teaching.sessions import Session
 
 
 @pytest.fixture(scope="module")
-def paper() -> BenchmarkSession:
-    return compose_session(SPLITS["paper"], 3)
+def paper() -> Session:
+    return compose_split_session(SPLITS["paper"], 3)
 
 
-def composed(name: str) -> BenchmarkSession:
-    return compose_session(SPLITS[name], 3)
+def composed(name: str) -> Session:
+    return compose_split_session(SPLITS[name], 3)
 
 
-def shown_alike(a: BenchmarkSession, b: BenchmarkSession) -> bool:
+def shown_alike(a: Session, b: Session) -> bool:
     """Whether the same was demonstrated, to the last bit."""
     x, y = a.demonstrations.to_arrays(), b.demonstrations.to_arrays()
     return all(np.array_equal(x[name], y[name]) for name in x)
@@ -32,19 +37,19 @@ def least_distance(objects: NDArray[np.float64]) -> float:
     return float(gaps[~np.eye(len(objects), dtype=bool)].min())
 
 
-def test_the_same_seed_is_the_same_session_and_another_one_another(paper: BenchmarkSession) -> None:
+def test_the_same_seed_is_the_same_session_and_another_one_another(paper: Session) -> None:
     assert shown_alike(paper, composed("paper"))
-    assert not shown_alike(paper, compose_session(SPLITS["paper"], 4))
+    assert not shown_alike(paper, compose_split_session(SPLITS["paper"], 4))
 
 
-def test_the_paper_shows_six_pairs_twice_and_asks_for_all_nine_in_random_order(paper: BenchmarkSession) -> None:
+def test_the_paper_shows_six_pairs_twice_and_asks_for_all_nine_in_random_order(paper: Session) -> None:
     assert sorted(paper.truth.requests) == sorted(PAPER_LANGUAGE.seen * 2)
     asked = [c.request for c in paper.commands]
     assert sorted(asked) == sorted(PAPER_LANGUAGE.requests)
     assert asked != sorted(asked)
 
 
-def test_unseen_pairs_are_all_that_is_asked_for(paper: BenchmarkSession) -> None:
+def test_unseen_pairs_are_all_that_is_asked_for(paper: Session) -> None:
     session = composed("unseen-pair")
     assert shown_alike(session, paper)
     assert sorted(c.request for c in session.commands) == sorted([*PAPER_LANGUAGE.held_back] * 3)
@@ -57,7 +62,7 @@ def test_scenes_are_shown_left_and_asked_for_right() -> None:
     assert all((c.objects[:, 0] > 0).all() for c in session.commands)
 
 
-def test_a_style_changes_only_what_is_asked(paper: BenchmarkSession) -> None:
+def test_a_style_changes_only_what_is_asked(paper: Session) -> None:
     session = composed("unseen-style")
     assert shown_alike(session, paper)
     usual, changed = ([np.ptp(s, axis=0).max() for c in x.commands for s in c.signs] for x in (paper, session))
@@ -68,20 +73,26 @@ def test_a_style_changes_only_what_is_asked(paper: BenchmarkSession) -> None:
 
 def test_strangers_are_a_crowd_and_somebody_else_asks() -> None:
     who, how = (np.random.default_rng(n) for n in (0, 1))
-    cast = strangers(PAPER_LANGUAGE, 2, who, how)
-    assert len(set(cast.signs.writers)) == len(set(cast.movements.writers)) == CROWD
-    assert len(set(cast.asking.writers)) == 1
-    assert not {s.points.tobytes() for s in cast.asking} & {s.points.tobytes() for s in cast.signs}
+    people = strangers(PAPER_LANGUAGE, 2, who, how)
+    assert len(set(people.signs.writers)) == len(set(people.movements.writers)) == CROWD
+    assert people.asking is not None
+    assert len(set(people.asking.writers)) == 1
+    assert not {s.points.tobytes() for s in people.asking} & {s.points.tobytes() for s in people.signs}
 
 
-def test_the_same_signer_goes_on_with_the_same_deck() -> None:
-    cast = same_people(PAPER_LANGUAGE, 2, np.random.default_rng(0), np.random.default_rng(1))
-    assert cast.asking is cast.signs
+def test_the_same_signer_goes_on_with_strokes_that_were_not_used() -> None:
+    people = same_people(PAPER_LANGUAGE, 2, np.random.default_rng(0), np.random.default_rng(1))
+    assert people.asking is None
     other = another_style(PAPER_LANGUAGE, 2, np.random.default_rng(0), np.random.default_rng(1))
-    assert np.array_equal(other.signs[0].points, cast.signs[0].points)
+    assert np.array_equal(other.signs[0].points, people.signs[0].points)
 
 
-def test_word_order_swaps_the_words_and_nothing_else(paper: BenchmarkSession) -> None:
+def test_commands_of_the_same_signer_repeat_no_stroke_of_the_demonstrations(paper: Session) -> None:
+    shown = {s.tobytes() for d in paper.demonstrations for s in d.signs}
+    assert not shown & {s.tobytes() for c in paper.commands for s in c.signs}
+
+
+def test_word_order_swaps_the_words_and_nothing_else(paper: Session) -> None:
     session = composed("word-order")
     language = session.truth.language
     assert (language.focus_word, language.movement_word) == (1, 0)
@@ -102,13 +113,13 @@ def test_many_and_few() -> None:
     assert sorted(few.truth.requests) == sorted(PAPER_LANGUAGE.seen)
 
 
-def test_noise_wavers_what_is_drawn_and_leaves_scenes_alone(paper: BenchmarkSession) -> None:
+def test_noise_wavers_what_is_drawn_and_leaves_scenes_alone(paper: Session) -> None:
     session = composed("noisy")
     assert np.array_equal(session.demonstrations.objects, paper.demonstrations.objects)
     assert not shown_alike(session, paper)
 
 
-def test_objects_are_ambiguously_near(paper: BenchmarkSession) -> None:
+def test_objects_are_ambiguously_near(paper: Session) -> None:
     session = composed("ambiguous")
     near = [least_distance(o) for o in (*session.demonstrations.objects, *(c.objects for c in session.commands))]
     usual = [least_distance(o) for o in (*paper.demonstrations.objects, *(c.objects for c in paper.commands))]
@@ -138,18 +149,18 @@ def test_a_counterfactual_family_differs_in_one_thing() -> None:
             assert np.array_equal(other.hand, first.hand)
 
 
-def test_more_demonstrations_are_by_the_same_people_and_show_no_pair_that_is_held_back(paper: BenchmarkSession) -> None:
-    lesson = with_more_demonstrations(paper, 20)
-    assert len(lesson.demonstrations) == len(lesson.truth.requests) >= 20
-    assert lesson.demonstrations[:12].demonstrations == paper.demonstrations.demonstrations
-    assert set(lesson.truth.requests) == set(PAPER_LANGUAGE.seen)
-    signs = [s.tobytes() for d in lesson.demonstrations for s in d.signs]
+def test_more_demonstrations_are_by_the_same_people_and_show_no_pair_that_is_held_back(paper: Session) -> None:
+    more = with_more_demonstrations(paper, 20)
+    assert len(more.demonstrations) == len(more.truth.requests) >= 20
+    assert more.demonstrations[:12].demonstrations == paper.demonstrations.demonstrations
+    assert set(more.truth.requests) == set(PAPER_LANGUAGE.seen)
+    signs = [s.tobytes() for d in more.demonstrations for s in d.signs]
     assert len(set(signs)) == len(signs)
     assert not set(signs) & {s.tobytes() for c in paper.commands for s in c.signs}
     assert with_more_demonstrations(paper, 12).demonstrations is paper.demonstrations
 
 
-def test_the_generator_of_an_entry_is_the_same_each_time_and_does_not_tell_the_seed(paper: BenchmarkSession) -> None:
+def test_the_generator_of_an_entry_is_the_same_each_time_and_does_not_tell_the_seed(paper: Session) -> None:
     first, again = entry_stream(paper), entry_stream(paper)
     assert first.random() == again.random() != entry_stream(composed("few")).random()
     assert first.bit_generator.seed_seq.entropy > 2**200  # type: ignore[attr-defined]

@@ -1,0 +1,88 @@
+"""Sessions of the study on all processors, a line of results each."""
+
+from __future__ import annotations
+
+import multiprocessing
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+
+from signimit.benchmark.scoring import InferenceVerdict, judge_inference
+from signimit.benchmark.studies.conditions import compose_study_session
+from signimit.benchmark.studies.methods import BASELINES, SharedDistances, infer
+from signimit.io.safe_files import Record, append_record, read_records
+from signimit.learning import ImitationModel, learn
+from signimit.teaching.sessions import Condition, Session
+
+OURS = "joint"
+Run = Callable[[Condition, int], Record]  # a session of a condition, by its seed; a function of a module
+_conditions: dict[
+    str, Condition
+] = {}  # a worker's, set once when it starts: recordings are not sent with every session
+
+
+def run_sessions(
+    run: Run, conditions: Sequence[Condition], seeds: Sequence[int], records: Path, workers: int
+) -> Iterator[Record]:
+    """Run every session of every condition that is not in the file yet, and append it there; yields as they end."""
+    done = {(r["cell"], r["seed"]) for r in read_records(records)}
+    todo = [(c.name, s) for s in seeds for c in conditions if (c.name, s) not in done]
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(workers, context, _start_worker, ({c.name: c for c in conditions},))
+    try:
+        for future in as_completed([pool.submit(_run, run, name, seed) for name, seed in todo]):
+            record = future.result()
+            append_record(records, record)
+            yield record
+    finally:
+        pool.shutdown(cancel_futures=True)  # a caller who stops waits for the sessions under way, not for all
+
+
+def _start_worker(conditions: dict[str, Condition]) -> None:
+    _conditions.update(conditions)
+
+
+def _run(run: Run, name: str, seed: int) -> Record:
+    return run(_conditions[name], seed)
+
+
+def run_session(condition: Condition, seed: int) -> Record:
+    """Let every method infer from one session, and ask ours for every pair."""
+    session = compose_study_session(condition, seed)
+    distances = SharedDistances(session, seed)
+    verdicts = {m: _three_verdicts(judge_inference(infer(distances, m), session.truth)) for m in BASELINES}
+    start = time.perf_counter()
+    model = learn(session.demonstrations, method=OURS, policy="knn")
+    seconds = time.perf_counter() - start
+    verdicts[OURS] = _three_verdicts(judge_inference(model, session.truth))
+    asked = [(round(sure, 4), int(right)) for sure, right in ask_with_confidence(model, session)]
+    count = len(session.demonstrations)
+    return {
+        "cell": condition.name, "seed": seed, "demonstrations": count, "verdicts": verdicts, "commands": asked,
+        "seconds": round(seconds, 3),
+    }  # fmt: skip
+
+
+def _three_verdicts(verdict: InferenceVerdict) -> list[int]:
+    return [int(verdict.grouping), int(verdict.focus), int(verdict.word_order)]
+
+
+def ask_with_confidence(model: ImitationModel, session: Session) -> list[tuple[float, bool]]:
+    """Ask for every pair once.
+
+    Returns:
+        For each command how sure the model is, and whether it is right: the object is the one asked for, and most
+        members of the movement show the one asked for.
+    """
+    means = {
+        m: Counter(session.truth.movement[list(movement.members)].tolist()).most_common(1)[0][0]
+        for m, movement in enumerate(model.movements)
+    }
+    found = []
+    for command in session.commands:
+        response = model.respond(command.signs, command.objects)
+        right = (means[response.movement], response.focus) == command.request
+        found.append((response.confidence, right))
+    return found
