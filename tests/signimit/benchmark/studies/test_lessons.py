@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+pytest.importorskip("sklearn", reason="the study's tables need scikit-learn")
+
 from signimit.benchmark.studies.asking import STRATEGIES, Lesson, Question, run_lessons
 from signimit.benchmark.studies.conditions import study_condition
 from signimit.benchmark.studies.tables import LessonRow, demonstrations_needed, tabulate_lessons
