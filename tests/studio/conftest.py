@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import secrets
 import shutil
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,11 +17,13 @@ from numpy.typing import NDArray
 
 for _package in ("fastapi", "uvicorn", "websockets"):
     pytest.importorskip(_package, reason="the studio needs signimit[studio]")
+httpx = pytest.importorskip("httpx", reason="the studio's tests need httpx")
 playwright = pytest.importorskip("playwright.sync_api", reason="the page is tested with playwright")
 
 from signimit.teaching.composition import compose_loops, compose_path  # noqa: E402
 from signimit.teaching.languages import PAPER_LANGUAGE  # noqa: E402
 from signimit.teaching.people import Person, synthetic_library  # noqa: E402
+from signimit_envs.studio.arm import live_arm  # noqa: E402
 from signimit_envs.studio.web.serving import StudioPlan, running_studio  # noqa: E402
 
 Json = dict[str, Any]
@@ -38,12 +42,24 @@ ARGUMENTS = (
 PATIENCE = 30_000  # ms, on a busy machine
 SIGN_POINTS, MOVEMENT_POINTS = 8, 18
 FINGER = 7  # its number, on the touch screen
+HURRY = 4  # times real time, of the simulated arm
+TAUGHT = 12  # demonstrations of the session that others begin with
 
 
 @pytest.fixture(scope="package")
-def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    with running_studio(StudioPlan(folder=tmp_path_factory.mktemp("studio"))) as where:
-        yield where
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("studio")
+
+
+@pytest.fixture(scope="package")
+def address(folder: Path) -> Iterator[str]:
+    """A running studio whose arm is faster than real time, as nobody wants to wait for it."""
+    clock = live_arm.RealTimeClock
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(live_arm, "RealTimeClock", lambda period, now: clock(period / HURRY, now))
+        patch.setattr(live_arm, "ANSWER_SECONDS", HURRY * live_arm.ANSWER_SECONDS)
+        with running_studio(StudioPlan(folder=folder)) as where:
+            yield where
 
 
 @pytest.fixture(scope="package")  # while it is open no test in its thread may run an event loop of its own
@@ -54,6 +70,13 @@ def browser() -> Iterator[Any]:
         opened = driver.chromium.launch(executable_path=CHROMIUM, args=list(ARGUMENTS))
         yield opened
         opened.close()
+
+
+BOX = """(element) => {
+  element.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = element.getBoundingClientRect();
+  return [x, y, width, height];
+}"""
 
 
 @dataclass
@@ -107,10 +130,8 @@ class Visitor:
 
     def draw(self, selector: str, places: Array, times: Array, lift: bool = True) -> None:
         """Draw over an element, at places in shares of its width and height, as time goes by."""
-        element = self.page.locator(selector)
-        element.scroll_into_view_if_needed()
-        box = element.bounding_box()
-        points = [(box["x"] + box["width"] * x, box["y"] + box["height"] * y) for x, y in places]
+        left, top, width, height = self.page.locator(selector).evaluate(BOX)
+        points = [(left + width * x, top + height * y) for x, y in places]
         begun = max(self.clock, time.time())
         for (x, y), at in zip(points, times - times[0], strict=True):
             self.event("Move" if at else "Start", x, y, begun + at)
@@ -207,18 +228,33 @@ def visit(browser: Any, address: str) -> Iterator[Callable[..., Visitor]]:
     assert not problems
 
 
-@pytest.fixture
-def new_session(address: str) -> Callable[..., str]:
-    """Begins a session; built-in people may make its first demonstrations. Gives its name."""
+@pytest.fixture(scope="package")
+def journal(address: str, folder: Path) -> list[str]:
+    """Lines of the journal of a session that built-in people taught."""
+    with httpx.Client(base_url=f"{address}api/", timeout=60, trust_env=False) as server:
 
-    def begin(visitor: Visitor, demonstrations: int = 0, seed: int = 5) -> str:
-        session = visitor.api("sessions", {"seed": seed, "title": "A test"})
-        for attempt in range(demonstrations):
+        def post(path: str, body: Json) -> Json:
+            return dict(server.post(path, json=body).raise_for_status().json())
+
+        session = post("sessions", {"seed": 5, "title": "A test"})
+        where = f"sessions/{session['id']}"
+        for attempt in range(TAUGHT):
             request = {name: session["next"]["prompt"][name] for name in ("movement", "focus")}
-            where, more = f"sessions/{session['id']}", {**request, "attempt": attempt}
-            drawn = {**visitor.api(f"{where}/people", {"part": "signs", **more})}
-            drawn |= visitor.api(f"{where}/people", {"part": "movement", **more})
-            session = visitor.api(f"{where}/demonstrations", {"revision": session["revision"], **drawn})
-        return str(session["id"])
+            more = {**request, "attempt": attempt}
+            drawn = {**post(f"{where}/people", {"part": "signs", **more})}
+            drawn |= post(f"{where}/people", {"part": "movement", **more})
+            session = post(f"{where}/demonstrations", {"revision": session["revision"], **drawn})
+    return (folder / session["id"] / "journal.jsonl").read_text().splitlines(keepends=True)
+
+
+@pytest.fixture
+def new_session(folder: Path, journal: list[str]) -> Callable[..., str]:
+    """Begins a session as the first lines of the journal, so that nobody has to teach it again. Gives its name."""
+
+    def begin(demonstrations: int = 0, folder: Path = folder) -> str:
+        name = f"20000101-000000-{secrets.token_hex(4)}"
+        (folder / name).mkdir()
+        (folder / name / "journal.jsonl").write_text("".join(journal[: 1 + demonstrations]))
+        return name
 
     return begin

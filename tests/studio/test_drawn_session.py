@@ -11,14 +11,14 @@ from signimit import performed
 
 CIRCLE, BLUE = 2, 2  # never demonstrated in the paper's language
 SECOND = 50  # samples of an answer's path
-PAUSE, PATIENCE = 250, 240  # ms between two looks at what the hand did, and how many of them
+PAUSE, PATIENCE = 100, 600  # ms between two looks at what the hand did, and how many of them
 
 
 def test_twelve_drawn_demonstrations_are_understood_and_an_unseen_request_is_obeyed(
     visit: Callable[..., Any], new_session: Callable[..., str], actor: Callable[[int], Any], in_picture: Any
 ) -> None:
     visitor = visit(viewport={"width": 1280, "height": 900})
-    name, person = new_session(visitor), actor(11)
+    name, person = new_session(), actor(11)
     visitor.open("teach", name)
     prompts = teach_all(visitor, person)
     check_belief(visitor, prompts)

@@ -34,7 +34,7 @@ def test_what_is_half_drawn_is_there_after_a_reload_and_in_a_new_tab_after_a_kil
     person = actor(6)
     with studio_process(tmp_path) as (address, process):
         first = visit(address=address)
-        name = new_session(first, 1)
+        name = new_session(1, tmp_path)
         first.open("teach", name)
         first.sign("teach", 1, person.signer.draw("1", person.rng).points)
         first.until_kept("sign 1")
@@ -71,7 +71,7 @@ def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(
     visit: Visit, new_session: NewSession, actor: NewActor
 ) -> None:
     visitor, person = visit(), actor(2)
-    visitor.open("teach", new_session(visitor, 3))
+    visitor.open("teach", new_session(3))
     for control, left in (("#undo", 2), ("#redo", 3)):
         visitor.page.locator(control).click()
         visitor.see("#session-facts", f"{left} demonstrations")
@@ -94,7 +94,7 @@ def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(
 
 def test_taps_far_starts_and_cancelled_fingers_draw_nothing(visit: Visit, new_session: NewSession) -> None:
     visitor = visit(touch=True, viewport=PHONE)
-    visitor.open("teach", new_session(visitor))
+    visitor.open("teach", new_session())
     pad, line = "#teach-pads figure:nth-child(1) canvas", np.linspace(0.3, 0.7, 8)[:, None] * [1, 1]
     visitor.draw(pad, line[:1], np.zeros(1))
     visitor.draw(pad, line, np.linspace(0, 0.4, 8), lift=False)
@@ -111,7 +111,7 @@ def test_a_finger_draws_a_demonstration_on_a_phone_and_nothing_is_cut_off(
     visit: Visit, new_session: NewSession, actor: NewActor
 ) -> None:
     visitor, person = visit(touch=True, viewport=PHONE), actor(3)
-    visitor.open("teach", new_session(visitor, 2))
+    visitor.open("teach", new_session(2))
     person.demonstrate(visitor, visitor.session())
     visitor.see("#belief", "What the robot believes")
     for view in VIEWS:
@@ -122,7 +122,7 @@ def test_a_finger_draws_a_demonstration_on_a_phone_and_nothing_is_cut_off(
 
 def test_two_tabs_do_not_corrupt_one_session(visit: Visit, new_session: NewSession, actor: NewActor) -> None:
     first, second, person = visit(), visit(), actor(4)
-    name = new_session(first, 1)
+    name = new_session(1)
     first.open("teach", name)
     second.open("teach", name)
     person.speak(second, "teach", second.session()["next"]["prompt"])
@@ -151,7 +151,7 @@ def test_everything_is_reached_with_the_keyboard_and_built_in_people_play(
     visit: Visit, new_session: NewSession
 ) -> None:
     visitor = visit()
-    name = new_session(visitor, 10)
+    name = new_session(10)
     visitor.open("teach", name)
     keyboard = visitor.page.keyboard
     visitor.page.locator("#tab-teach").focus()
@@ -189,7 +189,7 @@ def test_a_session_is_looked_at_exported_imported_and_merged(
     visit: Visit, new_session: NewSession, tmp_path: Any
 ) -> None:
     visitor = visit()
-    visitor.open("look", new_session(visitor, 4))
+    visitor.open("look", new_session(4))
     page = visitor.page
     visitor.see("#matrix-told", "Point at a cell")
     page.locator(".matrix").focus()
@@ -226,7 +226,7 @@ def test_a_dropped_connection_comes_back(visit: Visit, new_session: NewSession) 
     visitor = visit()
     servers: list[Any] = []
     visitor.page.route_web_socket(re.compile(r"/ws$"), lambda socket: servers.append(socket.connect_to_server()))
-    visitor.open("ask", new_session(visitor, 2))
+    visitor.open("ask", new_session(2))
     visitor.page.locator(".handle").nth(2).wait_for()
     visitor.page.evaluate("document.querySelectorAll('.handle').forEach((one) => { one.style.left = '' })")
     servers[0].close()
