@@ -86,8 +86,7 @@ from signimit.policies import StatefulPolicy as StatefulPolicy  # the name of `P
 from signimit.signs import SignSpace, dtw_distance, normalised_sign
 from signimit.similarity import maximum_similarities, policy_distances, policy_similarities
 from signimit.strokes import Stroke, StrokeLibrary
-from signimit.teaching.composition import GroundTruth, compose_demonstrations
-from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching import PAPER_LANGUAGE, GroundTruth, Language, compose_demonstrations
 from signimit.teaching.people import synthetic_library
 
 __version__ = "0.1.0"
