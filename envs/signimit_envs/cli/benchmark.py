@@ -1,4 +1,4 @@
-"""The benchmark: let entries obey signs whose meaning nobody tells them, and make the leaderboard."""
+"""The benchmark: run entries on its sessions, and make the leaderboard."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def run_entries(
     batch: int = 1,
     out: Path = OUT,
 ) -> None:
-    """Let entries obey signs whose meaning nobody tells them. A run goes on where a killed one stopped.
+    """Run entries on sessions, and summarise how many commands each obeyed. Goes on where a killed run stopped.
 
     Args:
         entry: Names of entries, or your own as module:Class or file.py:Class; "all" are all registered ones.

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import gymnasium as gym
 
+from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.timing.environments import time_frames
@@ -21,7 +22,7 @@ _OPTIONAL = {"scripts": ("matplotlib", "tqdm", "tyro"), "strokes": ("defusedxml"
 
 def main() -> None:
     """Say what works on this machine, what is missing, and the line that mends it. Ends with code 1 if something is."""
-    findings = diagnose()
+    findings = [finding for check in CHECKS for finding in check()]
     for finding in findings:
         print(f"{'ok     ' if finding.works else 'MISSING'}  {finding.what:10s}  {finding.detail}")
         if finding.remedy:
@@ -46,79 +47,70 @@ class Finding(NamedTuple):
     remedy: str = ""
 
 
-def diagnose() -> list[Finding]:
-    """Look at versions, optional packages, the physics, OpenGL and video."""
-    return [_python(), _packages(), *_extras(), _physics(), *_pictures(), _video(), _window()]
-
-
-def _version(package: str) -> str | None:
+def installed_version(package: str) -> str | None:
+    """Return the version of a package, or None if it is not installed."""
     try:
         return importlib.metadata.version(package)
     except importlib.metadata.PackageNotFoundError:
         return None
 
 
-def _python() -> Finding:
-    cores = os.cpu_count() or 1
-    return Finding(
-        "python", True, f"{platform.python_version()} on {platform.system()} {platform.machine()}, {cores} cores"
-    )
+def check_python() -> list[Finding]:
+    """Say which Python runs where."""
+    system = f"{platform.system()} {platform.machine()}, {os.cpu_count() or 1} cores"
+    return [Finding("python", True, f"{platform.python_version()} on {system}")]
 
 
-def _packages() -> Finding:
-    versions = {package: _version(package) for package in _NEEDED}
-    missing = [package for package, version in versions.items() if version is None]
+def check_packages() -> list[Finding]:
+    """Look for the packages that are needed and those of extras."""
+    versions = {package: installed_version(package) for package in _NEEDED}
     found = ", ".join(f"{package} {version}" for package, version in versions.items() if version is not None)
-    return Finding("packages", not missing, found, "pip install signimit" if missing else "")
-
-
-def _extras() -> list[Finding]:
-    findings = []
+    complete = None not in versions.values()
+    findings = [Finding("packages", complete, found, "" if complete else "pip install signimit")]
     for extra, packages in _OPTIONAL.items():
-        missing = [package for package in packages if _version(package) is None]
+        missing = [package for package in packages if installed_version(package) is None]
         detail = f"without {', '.join(missing)} (optional)" if missing else ", ".join(packages)
         findings.append(Finding(extra, True, detail, f"pip install 'signimit[{extra}]'" if missing else ""))
     return findings
 
 
-def _physics() -> Finding:
+def check_physics() -> list[Finding]:
+    """Move the hand for ten control steps, and see where it is."""
     env = gym.make("signimit/TabletopHand-v0")
     env.reset(seed=0, options={"hand": [0.0, 0.0]})
     for _ in range(10):
         observation, _, terminated, _, _ = env.step([0.5, 0.0])
     env.close()
-    expected = 10 * 0.5 * TabletopHandEnv.max_hand_speed / 50
+    expected = 10 * 0.5 * TabletopHandEnv.max_hand_speed / CONTROL_RATE
     off = abs(float(observation["hand"][0]) - expected)
-    return Finding(
-        "physics", not terminated and off < 0.005, f"the hand moved {expected:.2f} m, within {off * 1e3:.1f} mm"
-    )
+    detail = f"the hand moved {expected:.2f} m, within {off * 1e3:.1f} mm"
+    return [Finding("physics", not terminated and off < 0.005, detail)]
 
 
-def _pictures() -> list[Finding]:
+def check_rendering() -> list[Finding]:
+    """Find an OpenGL library, and time frames."""
     try:
         backend = choose_backend() or "the system's"
-        frames = time_frames(turns=10)
+        frames = ", ".join(f"{frame.work} {frame.seconds * 1e3:.1f} ms" for frame in time_frames(turns=10))
         chosen = "MUJOCO_GL asks for it" if os.environ.get("MUJOCO_GL") else "chosen"
-        detail = ", ".join(f"{frame.work} {frame.seconds * 1e3:.1f} ms" for frame in frames)
         return [
             Finding("opengl", True, f"{backend} ({chosen}), drawn by {renderer_name()}"),
-            Finding("frames", True, f"480x480: {detail}"),
+            Finding("frames", True, f"480x480: {frames}"),
         ]
     except RenderingError as error:
         return [Finding("opengl", False, error.reason, error.remedy)]
 
 
-def _video() -> Finding:
+def check_video() -> list[Finding]:
+    """Look for ffmpeg, and for a display."""
     import imageio_ffmpeg
 
     try:
-        version = imageio_ffmpeg.get_ffmpeg_version()
+        video = Finding("video", True, f"ffmpeg {imageio_ffmpeg.get_ffmpeg_version()}")
     except RuntimeError as error:
-        return Finding("video", False, str(error).splitlines()[0], "pip install 'imageio[ffmpeg]'")
-    return Finding("video", True, f"ffmpeg {version}")
+        video = Finding("video", False, str(error).splitlines()[0], "pip install 'imageio[ffmpeg]'")
+    window = "render_mode='human' opens one" if has_display() else "no display: only render_mode='rgb_array' (optional)"
+    return [video, Finding("window", True, window)]
 
 
-def _window() -> Finding:
-    if has_display():
-        return Finding("window", True, "render_mode='human' opens one")
-    return Finding("window", True, "no display: only render_mode='rgb_array' (optional)")
+CHECKS = (check_python, check_packages, check_physics, check_rendering, check_video)

@@ -30,9 +30,9 @@ def main(
         out: Folder for the files.
         seed: Decides people, scenes and everything else that is drawn.
         signs: Stroke library of real people (see `import-strokes`) who make the signs; left out, a synthetic person.
-        signer: Whose strokes of that library; left out, somebody's.
+        signer: Writer of that library; left out, one is drawn.
         movements: Stroke library of real people who show the movements; left out, a synthetic person.
-        mover: Whose strokes of that library; left out, somebody's.
+        mover: Writer of that library; left out, one is drawn.
     """
     plan = SessionPlan(seed=seed)
     rng = np.random.default_rng([seed, 1])

@@ -45,9 +45,9 @@ def main(
         attempts: How often each of the nine pairs of signs is asked for.
         seconds: How long the arm moves each time.
         signs: Stroke library of real people (see `import-strokes`) who make the signs; left out, a synthetic person.
-        signer: Whose strokes of that library; left out, somebody's.
+        signer: Writer of that library; left out, one is drawn.
         movements: Stroke library of real people who show the movements; left out, a synthetic person.
-        mover: Whose strokes of that library; left out, somebody's.
+        mover: Writer of that library; left out, one is drawn.
         video: Whether to make the videos.
     """
     from tqdm import tqdm

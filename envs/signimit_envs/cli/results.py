@@ -81,14 +81,12 @@ def checker(results: Path) -> str:
     rows = []
     for name, what in CHECKED.items():
         found = read_json(results / "checker" / f"{name}.json")
-        right, obeyed = (_counted(found[key]) for key in ("all inferences right", "obeyed"))
+        right, obeyed = (
+            [int(number) for number in re.findall(r"\((\d+)/(\d+)\)", found[key])[0]]
+            for key in ("all inferences right", "obeyed")
+        )
         rows.append((what, right[1], right[0], share(*obeyed)))
     return markdown_table(("sessions", "", "every inference right", "commands obeyed [95 %]"), rows)
-
-
-def _counted(text: str) -> tuple[int, int]:
-    ((count, total),) = re.findall(r"\((\d+)/(\d+)\)", text)
-    return int(count), int(total)
 
 
 def sessions(results: Path) -> str:
@@ -127,16 +125,11 @@ def study(results: Path) -> str:
 
 def signs(results: Path) -> str:
     """Signs read on their own, by method."""
-    rows = read_csv(results / "study" / "signs.csv")
-    methods = list(dict.fromkeys(row["method"] for row in rows))
-    right = {(*_quiz(row), row["method"]): share(int(row["right"]), int(row["asked"])) for row in rows}
-    kinds = dict.fromkeys(map(_quiz, rows))
-    lines = [(*kind, *(right[(*kind, method)] for method in methods)) for kind in kinds]
+    rows = [((r["signs"], r["shown"], r["signers"]), r) for r in read_csv(results / "study" / "signs.csv")]
+    methods = list(dict.fromkeys(row["method"] for _, row in rows))
+    right = {(*quiz, row["method"]): share(int(row["right"]), int(row["asked"])) for quiz, row in rows}
+    lines = [(*quiz, *(right[*quiz, method] for method in methods)) for quiz in dict.fromkeys(quiz for quiz, _ in rows)]
     return markdown_table(("signs", "examples of each", "signers", *methods), lines)
-
-
-def _quiz(row: dict[str, str]) -> tuple[str, str, str]:
-    return row["signs"], row["shown"], row["signers"]
 
 
 def asking(results: Path) -> str:

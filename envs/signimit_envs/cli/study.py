@@ -69,9 +69,8 @@ def cells(
         write_csv(folder / "cells.csv", Row._fields, rows)
         (folder / "cells.md").write_text(shares_table(rows) + "\n", encoding="utf-8")
         sources = [recordings.signs.source, recordings.movements.source] if recordings else ["synthetic"]
-        write_facts(
-            folder / "cells.json", {"seeds": [seeds[0], seeds[-1]], "people": sources, "beaten": beaten_cells(rows)}
-        )
+        facts = {"seeds": [seeds[0], seeds[-1]], "people": sources, "beaten": beaten_cells(rows)}
+        write_facts(folder / "cells.json", facts)
         draw_cells(rows).savefig(folder / "cells.png", dpi=90)
     print(shares_table(rows))
     for cell, method, theirs, ours in beaten_cells(rows):
@@ -171,7 +170,7 @@ def _asked(records: list[Record]) -> tuple[list[float], list[int]]:
 
 
 def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Path = OUT) -> None:
-    """Learn from people who had no part in the constants of the evidence, each left out once.
+    """Cross-validate the constants of the evidence: learn from people who were left out when they were measured.
 
     Args:
         signs: Stroke library of real people who make signs.

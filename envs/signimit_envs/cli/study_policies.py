@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 from pathlib import Path
@@ -13,6 +12,7 @@ from tqdm import tqdm
 import signimit
 from signimit.benchmark.studies.lasa import ReproductionError, find_lasa, reproduce, reproduction_error
 from signimit.benchmark.studies.policies import StudyPlan, Trial, compose_lessons, run_study, study_table, summarise
+from signimit.benchmark.studies.tables import write_csv
 from signimit.io.safe_files import whole_files
 from signimit.policies import POLICY_KINDS, make_policy
 from signimit.strokes import StrokeLibrary
@@ -46,7 +46,11 @@ def compare_policies(
     """
     from signimit.plots.policy_field import draw_portraits
 
-    library = _synthetic(seed) if movers is None else StrokeLibrary.load(movers)
+    if movers is not None:
+        library = StrokeLibrary.load(movers)
+    else:
+        rng, known = np.random.default_rng(seed), (*MOVEMENT_LABELS, *GOAL_LABELS)
+        library = synthetic_library(known, writers=PEOPLE, samples=8, rng=rng)
     plan = StudyPlan(labels=labels or tuple(dict.fromkeys(library.labels)), sessions=sessions, starts=starts, seed=seed)
     total = len(plan.labels) * sessions * len(kinds)
     trials = list(tqdm(run_study(library, plan, kinds), total=total, unit="trial"))
@@ -54,13 +58,9 @@ def compare_policies(
     out.mkdir(parents=True, exist_ok=True)
     with whole_files(out) as folder:
         (folder / "table.md").write_text(study_table(summaries) + "\n")
-        _write_trials(folder / "trials.csv", trials)
-        facts = {
-            "version": signimit.__version__,
-            "numpy": np.__version__,
-            "people": library.source,
-            "seed": seed,
-        }
+        cells = [[f"{value:.4g}" if isinstance(value, float) else value for value in trial] for trial in trials]
+        write_csv(folder / "trials.csv", Trial._fields, cells)
+        facts = {"version": signimit.__version__, "numpy": np.__version__, "people": library.source, "seed": seed}
         facts |= {"sessions": sessions, "starts": starts, "labels": plan.labels}
         facts["kinds"] = {s.kind: s.measures for s in summaries}
         (folder / "study.json").write_text(json.dumps(facts, indent=1) + os.linesep)
@@ -70,18 +70,6 @@ def compare_policies(
             draw_portraits(policies, lessons).savefig(folder / f"{kind}.png", dpi=DOTS_PER_INCH)
     print(study_table(summaries))
     print(f"Written to {out}.")
-
-
-def _synthetic(seed: int) -> StrokeLibrary:
-    rng = np.random.default_rng(seed)
-    return synthetic_library((*MOVEMENT_LABELS, *GOAL_LABELS), writers=PEOPLE, samples=8, rng=rng)
-
-
-def _write_trials(path: Path, trials: list[Trial]) -> None:
-    with path.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(Trial._fields)
-        writer.writerows([[f"{v:.4g}" if isinstance(v, float) else v for v in t] for t in trials])
 
 
 def compare_on_lasa(
@@ -105,16 +93,8 @@ def compare_on_lasa(
                 for path, times in zip(shape.paths, shape.times, strict=True)
             ]
             rows.append((shape.name, kind, *np.mean(errors, axis=0)))
-    with out.open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(
-            [
-                "shape",
-                "kind",
-                *(f"{name} [mm{'²' * (name == 'swept_area')}]" for name in ReproductionError._fields),
-            ]
-        )
-        writer.writerows(rows)
+    measures = (f"{name} [mm{'²' * (name == 'swept_area')}]" for name in ReproductionError._fields)
+    write_csv(out, ("shape", "kind", *measures), rows)
     for kind in kinds:
         area, dtw, gap = np.mean([row[2:] for row in rows if row[1] == kind], axis=0)
         print(f"{kind:16s} swept area {area:9.1f} mm²   DTW {dtw:9.1f} mm   goal gap {gap:6.2f} mm")

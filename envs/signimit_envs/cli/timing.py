@@ -14,8 +14,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from signimit.benchmark.studies.scaling import Measurement, measure_growth
-from signimit.benchmark.studies.tables import write_csv
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.policies import POLICY_KINDS
@@ -124,6 +122,8 @@ def time_growth(*, counts: tuple[int, ...] = (12, 25, 50, 100, 200, 500, 1000), 
         counts: Numbers of demonstrations to measure, ascending.
         out: Folder for scaling.json, scaling.md, scaling.csv and scaling.png.
     """
+    from signimit.benchmark.studies.scaling import Measurement, measure_growth
+    from signimit.benchmark.studies.tables import write_csv
     from signimit.plots.studies import draw_growth
 
     rows = list(measure_growth(counts, LONGEST))

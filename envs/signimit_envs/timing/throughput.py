@@ -223,7 +223,7 @@ def _parts_alone(env: TabletopHandEnv, work: Work, seconds: float) -> dict[str, 
 
 
 def _parts_together(work: Work, seconds: float) -> dict[str, Callable[[], object]]:
-    """Return what many hands do, whole and in parts that repeat it; nobody judges them on the way."""
+    """Return what many hands do, whole and in parts that repeat it; they are not judged on the way."""
     tracks, dt = reproduce_many(work.policies, work.hands, seconds), 1.0 / CONTROL_RATE
     model, steps = compile_arm(), range(tracks.commanded.shape[1])
     controller = ManyHandsController(model)

@@ -58,3 +58,16 @@ def test_the_package_is_a_program() -> None:
     assert done.returncode == 0
     assert "python -m signimit COMMAND" in done.stdout
     assert done.stderr == ""
+
+
+def test_an_extra_is_missed_only_by_the_commands_that_need_it() -> None:
+    """Only the module of `study` needs more than tyro and tqdm to be imported; the others import what they use."""
+    extras = ("sklearn", "matplotlib", "fastapi", "uvicorn", "websockets", "stable_baselines3", "distributed")
+    script = (
+        f"import importlib, sys; sys.modules.update(dict.fromkeys({extras}))\n"
+        "import signimit_envs.cli as cli\n"
+        "for name in set(cli.COMMANDS) - {'study'}:\n"
+        "    importlib.import_module('signimit_envs.cli.' + name.replace('-', '_'))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr

@@ -10,7 +10,7 @@ import pytest
 
 from signimit_envs import RenderingError
 from signimit_envs.cli import doctor, main
-from signimit_envs.cli.doctor import diagnose
+from signimit_envs.cli.doctor import CHECKS
 
 
 @pytest.fixture
@@ -23,7 +23,7 @@ def no_frames(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("no_frames")
 def test_without_opengl_the_line_that_mends_it_is_told_and_the_rest_works() -> None:
-    findings = {finding.what: finding for finding in diagnose()}
+    findings = {finding.what: finding for check in CHECKS for finding in check()}
     assert not findings["opengl"].works
     assert findings["opengl"].remedy == "apt-get install -y libosmesa6"
     assert "frames" not in findings
@@ -34,8 +34,8 @@ def test_without_opengl_the_line_that_mends_it_is_told_and_the_rest_works() -> N
 
 @pytest.mark.usefixtures("no_frames")
 def test_missing_packages_are_told_with_what_installs_them(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(doctor, "_version", lambda package: None if package in ("mink", "numba") else "1.0")
-    findings = {finding.what: finding for finding in diagnose()}
+    monkeypatch.setattr(doctor, "installed_version", lambda package: None if package in ("mink", "numba") else "1.0")
+    findings = {finding.what: finding for check in CHECKS for finding in check()}
     assert not findings["packages"].works
     assert findings["packages"].remedy == "pip install signimit"
     assert findings["fast"].works

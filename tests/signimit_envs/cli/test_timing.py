@@ -66,7 +66,7 @@ def test_many_reproductions(run: Any, tmp_path: Path, monkeypatch: pytest.Monkey
 def test_growth(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("matplotlib")
     rows = [Measurement(3, step, code, 0.2, 0.1, 0.5) for step in STEPS for code in CODES]
-    monkeypatch.setattr("signimit_envs.cli.timing.measure_growth", lambda *_: iter(rows))
+    monkeypatch.setattr("signimit.benchmark.studies.scaling.measure_growth", lambda *_: iter(rows))
     facts = read_result(tmp_path, "scaling", run("timing", "growth", "--counts", 3, "--out", tmp_path))
     assert [tuple(row.values()) for row in facts["growth"]] == rows
     head, first, *_ = (tmp_path / "scaling.csv").read_text().splitlines()
