@@ -87,6 +87,11 @@ def test_push_strengths_by_hand() -> None:
     np.testing.assert_allclose(push_strengths(memberships, gamma), np.exp([[-1.0, 1.0], [1.0, -1.0]]))
 
 
+def test_no_push_is_stronger_than_e_to_the_50() -> None:
+    gamma = np.array([[0.0, 1.0], [1.0, 0.0]])  # two groups of one: ω is the identity and both means are 0
+    np.testing.assert_allclose(push_strengths(np.eye(2), gamma), np.exp([[-1.0, 50.0], [50.0, -1.0]]))
+
+
 def test_the_pushed_trajectorys_mean_normalises() -> None:
     memberships, gamma = np.full((3, 3), 1 / 3), np.array([[0.0, 6, 0], [6, 0, 3], [0, 3, 0]])
     # ϖ = (2, 3, 1): trajectory 2 is pushed by 1 with e^(3/1 - 1), trajectory 1 by 2 with e^(3/3 - 1)
@@ -108,6 +113,14 @@ def test_a_push_by_hand(push: Any, expected: list[float]) -> None:
     old, xi = np.array([[0.6, 0.2], [0.4, 0.8]]), np.array([[9.0, 3.0], [1.0, 9.0]])
     pushed = push(old, xi)[:, 0]
     np.testing.assert_allclose(pushed / pushed.sum(), expected)
+
+
+def test_the_largest_membership_of_each_trajectory_is_held_at_one() -> None:
+    """However strong and however many the pushes are, no product of them overflows."""
+    old, xi = random_memberships(30, 0), np.full((30, 30), np.exp(50.0))  # the product of all is e^1450
+    pushed = push_multiplicative(old, xi)
+    np.testing.assert_array_equal(pushed.max(axis=0), 1.0)
+    assert (pushed > 0).all()
 
 
 @properties
@@ -200,6 +213,13 @@ def test_twins_are_grouped() -> None:
     assert group_movements(np.where(np.eye(4)[[1, 0, 3, 2]] > 0, 1e6, 1e-3)).labels.tolist() == [0, 0, 1, 1]
 
 
+def test_what_is_left_out_is_the_papers_method_50_steps_and_seed_0() -> None:
+    gamma = random_similarity(4, 0)
+    found = group_movements(gamma)
+    assert found.history.shape == (51, 4, 4)
+    assert found.history.tobytes() == group_movements(gamma, "paper", 50, rng=0).history.tobytes()
+
+
 def test_no_step_leaves_the_start() -> None:
     found = group_movements(random_similarity(3, 0), steps=0)
     assert found.history.shape == (1, 3, 3)
@@ -218,6 +238,8 @@ def test_labels_are_numbered_by_first_appearance() -> None:
         ({"similarity": [[0, -1], [-1, 0]]}, "similarity: expected no negative numbers, found -1."),
         ({"similarity": [[0, 1], [2, 0]]},
          "similarity: expected a symmetric matrix, found 1 at [0, 1] and 2 at [1, 0]."),
+        ({"similarity": [[0, 9, 1], [9, 0, 2], [1, 5, 0]]},
+         "similarity: expected a symmetric matrix, found 2 at [1, 2] and 5 at [2, 1]."),
         ({"similarity": [[0, np.nan], [1, 0]]}, "similarity: expected finite numbers, found nan at index (0, 1)."),
         ({"steps": -1}, "steps: expected a whole number, 0 or more, found -1."),
         ({"steps": 2.5}, "steps: expected a whole number, 0 or more, found 2.5."),

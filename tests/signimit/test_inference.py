@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, UnknownNameError, WordOrder, infer_focus, infer_word_order
+from signimit.inference import focus_similarities, spread_between, spread_within
 
 Array = NDArray[np.float64]
 properties = settings(deadline=None, derandomize=True, max_examples=30)
@@ -50,6 +51,17 @@ def test_a_demonstration_alone_in_its_group_is_compared_with_all() -> None:
     assert infer_focus(table, [0, 1]).tolist() == [1, 0]
 
 
+def test_similarities_to_a_group_are_means_by_hand() -> None:
+    table = np.full((4, 4, 2, 2), 1.0)
+    table[0, 1, 0, 1] = table[1, 0, 1, 0] = 0.25  # γ = 4 where 0 is about its object 0, 1 about its object 1
+    table[0, 2, 0, 0] = table[2, 0, 0, 0] = 0.5  # γ = 2
+    found = focus_similarities(table, np.array([0, 0, 0, 1]))
+    # 0: (4 + 2) / 2 and (1 + 1) / 2; 1: (1 + 1) / 2 and (4 + 1) / 2; 2: (2 + 1) / 2 and 1; 3, alone: 1 to all three
+    np.testing.assert_allclose(found, [[3, 1], [1, 2.5], [1.5, 1], [1, 1]])
+    pair = focus_similarities(table[:2, :2], np.array([0, 0]))  # each has one other
+    np.testing.assert_allclose(pair, [[4, 1], [1, 4]])
+
+
 def test_one_demonstration_or_one_object_leaves_no_choice() -> None:
     assert infer_focus(np.zeros((1, 1, 3, 3)), [0]).tolist() == [0]
     assert infer_focus(np.zeros((2, 2, 1, 1)), [0, 0]).tolist() == [0, 0]
@@ -76,6 +88,25 @@ def test_sign_classes_close_together_mislead_the_raw_distance_and_not_the_ratio(
     points = spread_points([0.0, 0.1, 0.0, 0.1], [0.0, 0.3, 5.0, 5.3])
     assert infer_word_order(points, MOVEMENT, FOCUS, "paper") == WordOrder(focus=1, movement=0)
     assert infer_word_order(points, MOVEMENT, FOCUS, "ratio") == WordOrder(focus=0, movement=1)
+
+
+def test_a_word_counts_by_how_much_less_it_differs_within_groups_than_between() -> None:
+    """Of two words that agree with the foci, that one names the object whose signs are further apart between them."""
+    movement, focus = [0, 0, 1, 1, 0, 1], [0, 1, 0, 1, 0, 1]
+    by_focus = np.array(focus) + np.array([0.0, 0.0, 0.1, 0.1, 0.1, 0.0])  # 0 or 1, and 0.1 of noise
+    points = np.stack([0.5 * by_focus, by_focus**3, np.array(movement)], axis=1)[..., None]
+    gaps = np.abs(points[:, None, :, 0] - points[None, :, :, 0])
+    ratio = spread_within(gaps, np.array(focus)) / spread_between(gaps, np.array(focus))
+    assert ratio[0] != ratio[1]
+    assert infer_word_order(points, movement, focus) == WordOrder(focus=int(ratio[:2].argmin()), movement=2)
+
+
+def test_spreads_by_hand() -> None:
+    gaps = np.array([[0.0, 1.0, 2.0], [1.0, 0.0, 4.0], [2.0, 4.0, 0.0]])[..., None]
+    assert spread_within(gaps, np.array([0, 0, 1])).tolist() == [1.0]
+    assert spread_between(gaps, np.array([0, 0, 1])).tolist() == [3.0]
+    assert spread_between(0 * gaps, np.array([0, 0, 1])).tolist() == [1e-12]  # signs that are all the same
+    assert spread_within(gaps, np.array([0, 1, 2])).tolist() == spread_between(gaps, np.zeros(3)).tolist() == [1.0]
 
 
 def test_a_third_word_that_means_nothing_is_left_out() -> None:

@@ -252,8 +252,8 @@ def test_wrapped_angles_point_the_same_way_within_half_a_turn(angle: float, roun
     assert abs(atan2(sin(gap), cos(gap))) < 1e-9
 
 
-@pytest.mark.parametrize("offset", [0.0, 1e6])
-def test_nearest_points_are_those_of_the_definition_far_from_the_origin_too(offset: float) -> None:
+@pytest.mark.parametrize("offset", [(0.0, 0.0), (1e6, 1e6), (1e7, -1e7)])
+def test_nearest_points_are_those_of_the_definition_far_from_the_origin_too(offset: tuple[float, float]) -> None:
     rng = np.random.default_rng(0)
     queries, points = rng.normal(size=(300, 2)) + offset, rng.normal(size=(40, 2)) + offset
     gaps = np.linalg.norm(queries[:, None] - points, axis=-1)
@@ -266,6 +266,11 @@ def test_more_queries_than_fit_one_block() -> None:
     queries, points = rng.normal(size=(1000, 2)), rng.normal(size=(300, 2))
     gaps = np.linalg.norm(queries[:, None] - points, axis=-1)
     assert (nearest_points(queries, points) == gaps.argmin(axis=1)).all()
+
+
+def test_more_points_than_fit_one_block() -> None:
+    points = np.column_stack([np.arange(70_000.0), np.zeros(70_000)])
+    assert nearest_points(np.array([[69_999.4, 1.0], [3.4, 0.0]]), points).tolist() == [69_999, 3]
 
 
 def test_of_equally_near_points_the_first_is_taken() -> None:

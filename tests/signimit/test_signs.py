@@ -1,5 +1,6 @@
 """Signs: dynamic time warping against its definition, and the sign space."""
 
+from dataclasses import FrozenInstanceError
 from typing import Any
 
 import numpy as np
@@ -151,6 +152,13 @@ def test_a_bad_sign_is_told_by_its_number() -> None:
         SignSpace([BAR]).embed_all([BAR, BAR[:1]])
     with pytest.raises(InvalidInputError, match="signs: expected at least one, found none"):
         SignSpace([BAR]).embed_all([])
+
+
+def test_a_space_is_one_thing_that_can_be_looked_up_and_not_changed() -> None:
+    space, twin = SignSpace([BAR]), SignSpace([BAR])
+    assert {space: 1, twin: 2}[space] == 1
+    with pytest.raises(FrozenInstanceError):
+        space.prototypes = twin.prototypes  # type: ignore[misc]
 
 
 def test_a_space_shares_nothing_that_can_change() -> None:

@@ -50,6 +50,18 @@ def test_paths_longer_than_a_block_are_no_different() -> None:
     np.testing.assert_allclose(policy_distances(paths, places), slow_distances(paths, places), atol=1e-12, rtol=0)
 
 
+def test_the_work_is_told_in_pairs_of_points_over_all_pairs_of_frames(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[tuple[str, float]] = []
+
+    def none(module: str, seconds: float) -> None:
+        asked.append((module, seconds))
+
+    monkeypatch.setattr("signimit.similarity.find_twin", none)
+    policy_distances([np.eye(2), np.diag([1.0, 1.0, 2.0])[:, :2]], np.zeros((2, 3, 2)))
+    # 1 and 2 directed points, each about 3 objects: (3 (1 + 2))² pairs of points, a nanosecond each
+    assert asked == [("signimit.similarity_numba", pytest.approx(81e-9))]
+
+
 def test_a_right_angle_by_hand() -> None:
     right, up = np.array([[0, 0], [1, 0], [2, 0]]), np.array([[0, 0], [0, 1]])
     distance = policy_distances([right, up], np.zeros((2, 1, 2)))[:, :, 0, 0]
