@@ -1,20 +1,24 @@
 """Policies: from demonstrations of one movement to a control law (paper, section II-E).
 
-============== ====================================================================================== =========
-kind           what                                                                                   state
-============== ====================================================================================== =========
-path-following the course that the demonstrations share, followed at their speed; the default         phase
-knn            mean output of the 50 nearest demonstrated points, the paper's                         none
-ilo-gmr        a mixture of Gaussians fitted to the nearest points at every call (Cederborg et al. 2010)       none
-gmr            Gaussian mixture regression, components chosen by BIC                                          none
-dmp            dynamic movement primitives: discrete reach, rhythmic part (Ijspeert et al. 2013)              phase, v
-============== ====================================================================================== =========
+============== =================================================================== =============== ==========
+kind           what                                                                state           options
+============== =================================================================== =============== ==========
+path-following the course that the demonstrations share, followed at their speed   phase           pull, near
+knn            the paper's: mean direction of the 50 nearest demonstrated points   none            neighbours
+ilo-gmr        a mixture of Gaussians fitted to the nearest points at every call   none            neighbours
+gmr            Gaussian mixture regression, the number of components chosen by BIC none            components
+dmp            dynamic movement primitives: discrete reach, then the rhythmic part phase, velocity frequency
+============== =================================================================== =============== ==========
+
+``path-following`` is the default; ``ilo-gmr`` is Cederborg et al. 2010, ``dmp`` Ijspeert et al. 2013.
 """
 
 from __future__ import annotations
 
+import inspect
 import os
 from collections.abc import Sequence
+from typing import Any
 
 from numpy.typing import ArrayLike
 
@@ -37,23 +41,32 @@ DEFAULT_POLICY = PathFollowingPolicy.kind
 StatefulPolicy = Policy  # its name in 0.1.0, when only some kinds had `start` and `step`
 
 
-def make_policy(paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: str = DEFAULT_POLICY) -> Policy:
+def make_policy(
+    paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: str = DEFAULT_POLICY, **options: Any
+) -> Policy:
     """Learn a policy from demonstrations of one movement, seen from the object each was about (paper, section II-E).
 
     Args:
         paths: Hand positions, each of shape (T, 2), m, origin at the object.
         times: When the hand was there, each of shape (T,), s, strictly increasing.
-        kind: One of `POLICY_KINDS`.
+        kind: One of `POLICY_KINDS`; ``"knn"`` is the paper's.
+        **options: Settings of that kind, e.g. ``neighbours=20``. The table of `signimit.policies` has their names, the
+            attributes of each kind's class say what they do.
 
     Returns:
         An immutable policy: ``policy(hand)`` maps positions, shape (2,) or (B, 2), m, to velocities, m/s.
 
     Raises:
-        InvalidInputError: If a demonstration is not a timed path.
-        UnknownNameError: If there is no such kind.
+        InvalidInputError: If a demonstration is not a timed path, or an option has a value that it cannot have.
+        UnknownNameError: If there is no such kind, or it has no such option.
     """
     check_policy_kind(kind)
-    return _CLASSES[kind].learn(check_demonstrations(paths, times))
+    learn = _CLASSES[kind].learn
+    known = [p.name for p in inspect.signature(learn).parameters.values() if p.kind is p.KEYWORD_ONLY]
+    for name in options:
+        if name not in known:
+            raise UnknownNameError(f"option of policy kind {kind!r}", name, known)
+    return learn(check_demonstrations(paths, times), **options)
 
 
 def check_policy_kind(kind: str) -> None:

@@ -163,7 +163,10 @@ def as_policy(moves: Policy | Callable[[Array], ArrayLike]) -> Policy:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class StoredPolicy(Policy):
-    """A policy whose init fields are its file: those annotated ``float`` or ``int`` are numbers, all others arrays."""
+    """A policy whose init fields are its file: those annotated ``float`` or ``int`` are numbers, all others arrays.
+
+    A field with a default may be missing in a file: it was written before the field was there.
+    """
 
     kind: ClassVar[str]
 
@@ -176,21 +179,23 @@ class StoredPolicy(Policy):
         """Make the arrays read-only copies and refuse what is not finite.
 
         Raises:
-            InvalidInputError: If an array holds something that is not a finite number.
+            InvalidInputError: If a field is or holds something that is not a finite number, or a count is not whole.
         """
         for name, hint in self._stored_types().items():
-            if hint not in (float, int):
-                value = frozen(getattr(self, name))
-                if not np.isfinite(value).all() or not value.size:
-                    raise InvalidInputError(f"policy: {name}", "finite numbers", "others, or none")
-                object.__setattr__(self, name, value)
+            value = frozen(getattr(self, name))
+            if not np.isfinite(value).all() or not value.size:
+                raise InvalidInputError(f"policy: {name}", "finite numbers", "others, or none")
+            if hint is int and not (value.ndim == 0 and value >= 1 and value % 1 == 0):
+                raise InvalidInputError(f"policy: {name}", "a whole number, 1 or more", f"{getattr(self, name)!r}")
+            object.__setattr__(self, name, value if hint not in (float, int) else hint(value))
 
     def _stored_arrays(self) -> dict[str, Array]:
         return {name: np.asarray(getattr(self, name)) for name in self._stored_types()}
 
     def __repr__(self) -> str:
         """Name the fields, arrays by their shapes: a policy is printed with every response."""
-        values = self._stored_arrays().items()
+        default = {field.name: field.default for field in dataclasses.fields(self)}
+        values = ((name, v) for name, v in self._stored_arrays().items() if v.ndim or v != default[name])
         shown = (f"{name}=<{'x'.join(map(str, v.shape))}>" if v.ndim else f"{name}={v:.4g}" for name, v in values)
         return f"{type(self).__name__}({', '.join(shown)})"
 
@@ -210,12 +215,14 @@ class StoredPolicy(Policy):
             FileFormatError: If a field is missing, of another shape, or not finite.
         """
         types = cls._stored_types()
-        missing = [name for name in types if name not in arrays]
+        needed = {f.name for f in dataclasses.fields(cls) if f.init and f.default is dataclasses.MISSING}
+        missing = [name for name in types if name in needed and name not in arrays]
         if missing:
             raise FileFormatError(where, f"arrays {', '.join(types)}", f"no {missing[0]}")
         try:
+            there = {name: hint for name, hint in types.items() if name in arrays}
             return cls(
-                **{name: arrays[name].item() if t in (float, int) else arrays[name] for name, t in types.items()}
+                **{name: arrays[name].item() if t in (float, int) else arrays[name] for name, t in there.items()}
             )
         except (TypeError, ValueError, IndexError) as error:
             raise FileFormatError(where, f"the arrays of a {cls.kind} policy", str(error)) from None

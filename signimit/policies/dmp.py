@@ -20,12 +20,12 @@ from signimit.policies.reference_path.reference_path import learn_reference_path
 from signimit.policies.reference_path.timing import time_course
 from signimit.strokes import Stroke
 
-BASES = 40
-FREQUENCY = 10.0  # rad/s of the spring; an error is forgotten within about 0.3 s
+BASES = 40  # basis functions of the forcing term
+FREQUENCY = 10.0  # rad/s
 DECAY = 3.0  # of the discrete primitive's gate over its duration
 ARRIVED = 0.15  # half sizes from the course at which the reach ends
 PATIENCE = 0.3  # half sizes of error that halve the phase's speed (phase stopping)
-RIDGE = 1e-6
+RIDGE = 1e-6  # added to the diagonal of the bases' Gram matrix: where no node is, a weight is 0
 
 
 class PrimitiveState(NamedTuple):
@@ -54,6 +54,8 @@ class DMPPolicy(StoredPolicy):
         closed: Whether it is rhythmic (1) or discrete (0).
         scale: Half size of the movement, m.
         reach_speed: Greatest speed of the reach, m/s.
+        frequency: Of the spring, rad/s: an error is forgotten within about 3 / frequency seconds; a stiffer spring asks
+            for higher speeds after a shove.
     """
 
     kind: ClassVar[str] = "dmp"
@@ -62,10 +64,14 @@ class DMPPolicy(StoredPolicy):
     closed: float
     scale: float
     reach_speed: float
+    frequency: float = FREQUENCY
     _goal: Array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         """Check the shapes and set the goal: the middle of a rhythmic primitive, the end of a discrete one."""
+        if not 0 < self.frequency < 1 / CONTROL_PERIOD:
+            expected = f"between 0 and {1 / CONTROL_PERIOD:g} rad/s, what steps of {CONTROL_PERIOD:g} s can follow"
+            raise InvalidInputError("frequency", expected, f"{self.frequency}")
         super().__post_init__()
         if self.weights.shape != (BASES, 2) or self.course.ndim != 2 or self.course.shape[1] != 2:
             expected = f"weights ({BASES}, 2) and a course (M, 2)"
@@ -74,7 +80,7 @@ class DMPPolicy(StoredPolicy):
         object.__setattr__(self, "_goal", frozen(goal))
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+    def learn(cls, demonstrations: Sequence[Stroke], *, frequency: float = FREQUENCY) -> Self:
         """Find the shared course and fit the forcing term to it."""
         course = learn_reference_path(demonstrations)
         nodes = time_course(course)
@@ -83,10 +89,10 @@ class DMPPolicy(StoredPolicy):
         line = np.concatenate([ends[0], nodes, ends[1]])
         velocity = np.diff(line, axis=0)[:-1] / CONTROL_PERIOD
         acceleration = np.diff(line, n=2, axis=0) / CONTROL_PERIOD**2
-        wanted = acceleration - FREQUENCY**2 * (goal - nodes) + 2 * FREQUENCY * velocity
+        wanted = acceleration - frequency**2 * (goal - nodes) + 2 * frequency * velocity
         bases = _bases(np.arange(len(nodes)) / len(nodes), course.closed)
         weights = np.linalg.solve(bases.T @ bases + RIDGE * np.eye(BASES), bases.T @ wanted)
-        return cls(weights, nodes, float(course.closed), course.scale, course.reach_speed)
+        return cls(weights, nodes, float(course.closed), course.scale, course.reach_speed, frequency)
 
     def start(self) -> PrimitiveState:
         """Return the state of hands not seen yet."""
@@ -103,7 +109,7 @@ class DMPPolicy(StoredPolicy):
         drawing = drawing | (distance < ARRIVED * self.scale)
         force = _bases(phases, bool(self.closed)) @ self.weights
         target = np.where(drawing[:, None], self._goal - flat, gap)
-        pushed = FREQUENCY**2 * target - 2 * FREQUENCY * velocity + force * drawing[:, None]
+        pushed = self.frequency**2 * target - 2 * self.frequency * velocity + force * drawing[:, None]
         velocity = velocity + CONTROL_PERIOD * pushed
         velocity = np.where(drawing[:, None], velocity, within_speed(velocity, self.reach_speed))
         pace = drawing / (1.0 + (distance / (PATIENCE * self.scale)) ** 2) / len(self.course)
@@ -122,7 +128,7 @@ class DMPPolicy(StoredPolicy):
             (phases + 1.0 / len(self.course)) % 1.0 if self.closed else np.minimum(phases + 1.0 / len(self.course), 1.0)
         )
         ahead = (self._place(onward) - self._place(phases)) / CONTROL_PERIOD
-        velocity: Array = ahead + within_speed(FREQUENCY * (self._place(phases) - flat), self.reach_speed)
+        velocity: Array = ahead + within_speed(self.frequency * (self._place(phases) - flat), self.reach_speed)
         return velocity.reshape(hands.shape)
 
     def _unpacked(self, state: PrimitiveState, hands: Array) -> tuple[Array, Array, NDArray[np.bool_]]:

@@ -22,8 +22,10 @@ from signimit.policies.gaussian_mixture import (
     within_speed,
 )
 from signimit.strokes import Stroke
+from signimit.validation import whole_numbers
 
-COMPONENTS = (1, 2, 3, 4, 6, 8, 10, 12, 16)
+COMPONENTS = (1, 2, 3, 4, 6, 8, 10, 12, 16)  # numbers of components to choose from
+POINTS_EACH = 10  # data points that a component needs: its mean and covariance have 14 numbers
 STEPS = 30  # of expectation maximisation
 MOST_POINTS = 800  # evenly taken from all demonstrations; enough for 16 components over four features
 
@@ -53,12 +55,24 @@ class GMRPolicy(StoredPolicy):
             raise InvalidInputError("policy: means", f"shape ({count}, 4)", f"shape {self.means.shape}")
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
-        """Fit mixtures of several sizes and keep the one with the least BIC."""
+    def learn(cls, demonstrations: Sequence[Stroke], *, components: Sequence[int] = COMPONENTS) -> Self:
+        """Fit mixtures of several sizes and keep the one with the least BIC.
+
+        Args:
+            demonstrations: Of one movement, in the object's frame.
+            components: Numbers of components to choose from; those that there are too few points for are left out.
+
+        Raises:
+            InvalidInputError: If ``components`` are no numbers, or there are too few points for each of them.
+        """
         data = position_velocity(demonstrations)
         limit = speed_limit(data)
         data = data[:: max(1, -(-len(data) // MOST_POINTS))]
-        fits = [_fit(data, count) for count in COMPONENTS if 10 * count <= max(len(data), 10)]
+        most = max(len(data) // POINTS_EACH, 1)
+        counts = [int(count) for count in whole_numbers(components, "components", (None,)) if 1 <= count <= most]
+        if not counts:
+            raise InvalidInputError("components", f"a number from 1 to {most}, a tenth of the points", f"{components}")
+        fits = [_fit(data, count) for count in counts]
         best = min(fits, key=lambda mixture: bayesian_information(mixture, data))
         return cls(best.weights, best.means, best.covariances, limit)
 

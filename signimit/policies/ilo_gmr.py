@@ -20,24 +20,27 @@ from signimit.policies.gaussian_mixture import fit_mixture, regress, within_spee
 from signimit.policies.gmr import position_velocity, speed_limit
 from signimit.strokes import Stroke
 
-NEIGHBOURS, STEPS = 50, 4  # points of a local mixture, and steps of expectation maximisation
+NEIGHBOURS = 50  # points of a local mixture, as many as the paper's policy has
+STEPS = 4  # of expectation maximisation; not tuned
 BLOCK = 256  # hands at once
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ILOGMRPolicy(StoredPolicy):
-    """Expected velocity under a mixture of two, fitted to the 50 nearest points at every call.
+    """Expected velocity under a mixture of two, fitted to the nearest points at every call.
 
     Departure: the components start from the two sides of the widest spread of velocity, not at random.
 
     Attributes:
         data: Demonstrated positions and velocities, shape (n, 4), m and m/s.
         limit: Fastest demonstrated speed (99th percentile), m/s, never exceeded.
+        neighbours: How many points a mixture is fitted to. More of them make it a smoother, more global model.
     """
 
     kind: ClassVar[str] = "ilo-gmr"
     data: Array
     limit: float
+    neighbours: int = NEIGHBOURS
     _tree: cKDTree = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -48,10 +51,10 @@ class ILOGMRPolicy(StoredPolicy):
         object.__setattr__(self, "_tree", cKDTree(self.data[:, :2]))
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+    def learn(cls, demonstrations: Sequence[Stroke], *, neighbours: int = NEIGHBOURS) -> Self:
         """Keep the demonstrations."""
         data = position_velocity(demonstrations)
-        return cls(data, speed_limit(data))
+        return cls(data, speed_limit(data), neighbours)
 
     def step(self, state: None, hand: ArrayLike) -> tuple[None, Array]:
         """Return no state, and velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
@@ -61,7 +64,7 @@ class ILOGMRPolicy(StoredPolicy):
         return None, np.concatenate([np.zeros((0, 2)), *blocks]).reshape(hands.shape)
 
     def _local(self, hands: Array) -> Array:
-        _, nearest = self._tree.query(hands, k=min(NEIGHBOURS, len(self.data)))
+        _, nearest = self._tree.query(hands, k=min(self.neighbours, len(self.data)))
         near = self.data[nearest.reshape(len(hands), -1)]  # (B, k, 4)
         velocity = near[..., 2:] - near[..., 2:].mean(axis=1, keepdims=True)
         _, axes = np.linalg.eigh(np.swapaxes(velocity, 1, 2) @ velocity)

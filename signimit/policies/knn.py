@@ -14,12 +14,12 @@ from signimit.exceptions import InvalidInputError
 from signimit.policies.base import Array, StoredPolicy, check_hand, demonstrated_velocities
 from signimit.strokes import Stroke
 
-NEIGHBOURS = 50  # the paper's
+NEIGHBOURS = 50  # points; section II-E
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class KNearestPolicy(StoredPolicy):
-    """Move in the mean direction of the 50 nearest demonstrated points.
+    """Move in the mean direction of the nearest demonstrated points, 50 in the paper.
 
     Departure: the paper's output is a direction, and says nothing of speed; ours is scaled to the mean demonstrated
     speed. Directions that cancel leave the hand slow or at rest, as they do in the paper.
@@ -28,12 +28,15 @@ class KNearestPolicy(StoredPolicy):
         points: Demonstrated points that move, shape (n, 2), m, object's frame.
         directions: Direction of motion at each, unit vectors, shape (n, 2).
         speed: Mean speed of the demonstrators, m/s.
+        neighbours: How many points are averaged. More of them smooth corners and crossings away; fewer follow the noise
+            of a single demonstration.
     """
 
     kind: ClassVar[str] = "knn"
     points: Array
     directions: Array
     speed: float
+    neighbours: int = NEIGHBOURS
     _tree: cKDTree = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -45,17 +48,17 @@ class KNearestPolicy(StoredPolicy):
         object.__setattr__(self, "_tree", cKDTree(self.points))
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+    def learn(cls, demonstrations: Sequence[Stroke], *, neighbours: int = NEIGHBOURS) -> Self:
         """Collect the points of all demonstrations; a resting hand has no direction and is left out."""
         points = np.concatenate([d.points for d in demonstrations])
         velocity = np.concatenate([demonstrated_velocities(d) for d in demonstrations])
         speed = np.hypot(*velocity.T)
         moving = speed > 1e-6 * speed.max()
-        return cls(points[moving], velocity[moving] / speed[moving, None], float(speed[moving].mean()))
+        return cls(points[moving], velocity[moving] / speed[moving, None], float(speed[moving].mean()), neighbours)
 
     def step(self, state: None, hand: ArrayLike) -> tuple[None, Array]:
         """Return no state, and velocities, shape (2,) or (B, 2), m/s, for hands of the same shape, m."""
-        hands, count = check_hand(hand), min(NEIGHBOURS, len(self.points))
+        hands, count = check_hand(hand), min(self.neighbours, len(self.points))
         _, nearest = self._tree.query(hands, k=count)
         mean: Array = self.directions[nearest].reshape(*hands.shape[:-1], count, 2).mean(axis=-2)
         return None, mean * self.speed

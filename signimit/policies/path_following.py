@@ -21,9 +21,10 @@ from signimit.policies.reference_path.reference_path import learn_reference_path
 from signimit.policies.reference_path.timing import time_course
 from signimit.strokes import Stroke
 
+# Chosen on six people of the $1 recogniser's data, four demonstrations a movement (docs/policies.md).
 PULL = 15.0  # 1/s
+NEAR = 0.12  # half sizes
 SURE = 0.05  # half sizes; a hand so close to the expected place is taken to be there
-NEAR = 0.12  # half sizes; closer, the phase moves on and the demonstrators' velocity counts
 LOST = 0.4  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
 ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
@@ -62,6 +63,10 @@ class PathFollowingPolicy(StoredPolicy):
         closed: Whether the course goes round (1) or ends at the last node, a goal (0).
         scale: Half size of the movement, m.
         reach_speed: Speed on the way to the course, m/s.
+        pull: Speed towards the course for each metre off it, 1/s, up to ``reach_speed``: a stronger pull is back sooner
+            after a shove, and swings where an arm follows late.
+        near: Distance from the course, in half sizes, at which the demonstrators' velocity counts half and below which
+            the phase moves on: more of it rounds corners off, less lets a hand that is held off the course stand still.
     """
 
     kind: ClassVar[str] = "path-following"
@@ -69,6 +74,8 @@ class PathFollowingPolicy(StoredPolicy):
     closed: float
     scale: float
     reach_speed: float
+    pull: float = PULL
+    near: float = NEAR
     _columns: Array = field(init=False, repr=False)  # of each node: x, y, m, and the velocity to the next, m/s
     _rows: tuple[tuple[float, ...], ...] = field(init=False, repr=False)  # the same in Python's numbers
     _plane: NDArray[np.float32] = field(init=False, repr=False)
@@ -80,6 +87,9 @@ class PathFollowingPolicy(StoredPolicy):
             raise InvalidInputError("policy: course", "shape (M, 2)", f"shape {self.course.shape}")
         if not (0 < self.scale < np.inf and 0 < self.reach_speed < np.inf):
             raise InvalidInputError("policy: scale, speed", "positive", f"{self.scale}, {self.reach_speed}")
+        if not (0 < self.pull < 1 / CONTROL_PERIOD and 0 < self.near < LOST):
+            expected = f"above 0, pull below {1 / CONTROL_PERIOD:g} per second and near below {LOST} half sizes"
+            raise InvalidInputError("pull, near", expected, f"{self.pull}, {self.near}")
         onward = self.course[self._clip(np.arange(1, len(self.course) + 1), np)]
         columns = frozen(np.hstack([self.course, (onward - self.course) / CONTROL_PERIOD]).T)
         plane = np.vstack([-self.course.T, (self.course**2).sum(axis=1) / 2]).astype(np.float32)
@@ -89,10 +99,10 @@ class PathFollowingPolicy(StoredPolicy):
         object.__setattr__(self, "_plane", plane)
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke]) -> Self:
+    def learn(cls, demonstrations: Sequence[Stroke], *, pull: float = PULL, near: float = NEAR) -> Self:
         """Find the shared course and lay it out in time."""
         course = learn_reference_path(demonstrations)
-        return cls(time_course(course), float(course.closed), course.scale, course.reach_speed)
+        return cls(time_course(course), float(course.closed), course.scale, course.reach_speed, pull, near)
 
     def start(self) -> PhaseState:
         """Return the state of hands not seen yet."""
@@ -125,9 +135,9 @@ class PathFollowingPolicy(StoredPolicy):
         node_x, node_y, ahead_x, ahead_y = self._at(nodes, xp)
         gap_x, gap_y = node_x - x, node_y - y
         distance = xp.sqrt(gap_x * gap_x + gap_y * gap_y)
-        square = (distance / (NEAR * self.scale)) ** 2
+        square = (distance / (self.near * self.scale)) ** 2
         follow = 1.0 / (1.0 + square * square)
-        pull = xp.minimum(PULL, self.reach_speed / xp.maximum(distance, 1e-9))
+        pull = xp.minimum(self.pull, self.reach_speed / xp.maximum(distance, 1e-9))
         velocity = np.array([follow * ahead_x + pull * gap_x, follow * ahead_y + pull * gap_y]).T
         onward = self._clip(nodes + (follow > 0.5), xp)
         if xp is np:

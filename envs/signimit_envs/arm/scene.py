@@ -10,10 +10,11 @@ import numpy as np
 
 import signimit_assets
 from signimit import InvalidInputError
+from signimit.policies import CONTROL_PERIOD
 
 WORKSPACE = np.array([0.42, 0.38])  # m, half sizes of the area that the hand surely reaches
 TABLE = np.array([0.56, 0.50])  # m, half sizes of the table's top
-CONTROL_RATE = 50  # Hz
+CONTROL_RATE = round(1 / CONTROL_PERIOD)  # Hz
 SUBSTEPS = 20  # physics steps in a control step
 MAX_JOINT_SPEED = 3.5  # rad/s, limit of the drives
 MAX_HAND_SPEED = 1.2  # m/s along each axis; what an action of 1 stands for with hand control

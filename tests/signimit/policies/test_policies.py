@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from signimit import policies as policies_module
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.io.archive import write_archive
 from signimit.policies import DEFAULT_POLICY, POLICY_KINDS, Policy, StatefulPolicy, load_policy, make_policy
@@ -227,3 +228,63 @@ def test_non_finite_arrays_in_a_file_are_refused(tmp_path: Path) -> None:
     write_archive(tmp_path / "nan.npz", "policy", 1, arrays, {"policy": "ilo-gmr"})
     with pytest.raises(FileFormatError, match="finite"):
         load_policy(tmp_path / "nan.npz")
+    arrays = {"data": np.zeros((5, 4)), "limit": np.array(np.inf)}
+    write_archive(tmp_path / "inf.npz", "policy", 1, arrays, {"policy": "ilo-gmr"})
+    with pytest.raises(FileFormatError, match="limit: expected finite"):
+        load_policy(tmp_path / "inf.npz")
+
+
+OPTIONS = [
+    ("path-following", "pull", 10.0, 15.0),
+    ("path-following", "near", 0.2, 0.12),
+    ("knn", "neighbours", 20, 50),
+    ("ilo-gmr", "neighbours", 20, 50),
+    ("gmr", "components", (2, 3), (1, 2, 3, 4, 6, 8, 10, 12, 16)),
+    ("dmp", "frequency", 6.0, 10.0),
+]
+
+
+@pytest.mark.parametrize(("kind", "name", "value", "default"), OPTIONS)
+def test_an_option_counts_and_outlives_a_file(
+    kind: str, name: str, value: Any, default: Any, policies: dict[str, Policy], shown: Compose, tmp_path: Path
+) -> None:
+    paths, times, _ = shown("triangle up")
+    as_ever, other = (make_policy(paths, times, kind, **{name: v}) for v in (default, value))
+    hands = HANDS / 2
+    np.testing.assert_array_equal(drive(as_ever, hands, 20), drive(policies[kind], hands, 20))
+    assert not np.allclose(drive(other, hands, 20), drive(policies[kind], hands, 20))
+    other.save(tmp_path / "policy.npz")
+    again = load_policy(tmp_path / "policy.npz")
+    np.testing.assert_array_equal(drive(again, hands, 20), drive(other, hands, 20))
+    assert repr(again) == repr(other)
+
+
+def test_the_table_of_kinds_names_their_options() -> None:
+    rows = [line for line in (policies_module.__doc__ or "").splitlines() if line.split(" ")[0] in POLICY_KINDS]
+    for kind, row in zip(POLICY_KINDS, rows, strict=True):
+        assert row.endswith(" " + ", ".join(name for k, name, *_ in OPTIONS if k == kind))
+
+
+def test_an_unknown_option_is_refused_with_the_known_ones(shown: Compose) -> None:
+    paths, times, _ = shown("circle", 1)
+    with pytest.raises(UnknownNameError, match="Unknown option of policy kind 'knn' 'neighbors'; known are neighbours"):
+        make_policy(paths, times, "knn", neighbors=20)
+
+
+@pytest.mark.parametrize(
+    ("kind", "options", "message"),
+    [
+        ("knn", {"neighbours": 0}, "policy: neighbours: expected a whole number, 1 or more, found 0"),
+        ("ilo-gmr", {"neighbours": 2.5}, "policy: neighbours: expected a whole number, 1 or more, found 2.5"),
+        ("gmr", {"components": (0, 10_000)}, "components: expected a number from 1 to .*, a tenth of the points"),
+        ("gmr", {"components": "many"}, "components: expected numbers"),
+        ("dmp", {"frequency": 50.0}, "frequency: expected between 0 and 50 rad/s"),
+        ("dmp", {"frequency": np.nan}, "frequency: expected"),
+        ("path-following", {"pull": -1.0}, "pull, near: expected above 0"),
+        ("path-following", {"near": 0.4}, "pull, near: expected above 0, .* near below 0.4 half sizes"),
+    ],
+)
+def test_an_option_without_sense_is_refused(kind: str, options: Any, message: str, shown: Compose) -> None:
+    paths, times, _ = shown("circle", 1)
+    with pytest.raises(InvalidInputError, match=message):
+        make_policy(paths, times, kind, **options)

@@ -7,9 +7,20 @@ import numpy as np
 import pytest
 
 import signimit
+from signimit.benchmark.obeying import FASTEST
 from signimit.explanation import object_name
+from signimit.policies import CONTROL_PERIOD
 from signimit_envs.arm.inverse_kinematics import HandController
-from signimit_envs.arm.scene import OBJECT_COUNTS, OBJECT_NAMES, WORKSPACE, compile_scene, object_bodies
+from signimit_envs.arm.scene import (
+    CONTROL_RATE,
+    MAX_HAND_SPEED,
+    OBJECT_COUNTS,
+    OBJECT_NAMES,
+    SUBSTEPS,
+    WORKSPACE,
+    compile_scene,
+    object_bodies,
+)
 
 
 @pytest.mark.parametrize("count", OBJECT_COUNTS)
@@ -24,6 +35,15 @@ def test_every_number_of_objects_compiles(count: Any) -> None:
 def test_other_numbers_of_objects_are_refused(count: Any) -> None:
     with pytest.raises(signimit.InvalidInputError, match="objects: expected 2 to 6, found"):
         compile_scene(count)
+
+
+def test_a_control_step_of_the_simulation_takes_the_one_control_period() -> None:
+    assert compile_scene().opt.timestep * SUBSTEPS == pytest.approx(CONTROL_PERIOD, abs=1e-15)
+    assert 1 / CONTROL_RATE == CONTROL_PERIOD
+
+
+def test_hands_without_an_arm_are_as_fast_as_those_with_one() -> None:
+    assert FASTEST == MAX_HAND_SPEED
 
 
 def test_names_that_others_rely_on() -> None:
