@@ -7,6 +7,7 @@ that all engines give the same records.
 from __future__ import annotations
 
 import hashlib
+import math
 import multiprocessing
 import os
 import time
@@ -24,17 +25,19 @@ from numpy.typing import NDArray
 
 import signimit
 from signimit.benchmark.entries import EntrantReference, get_entrant
-from signimit.benchmark.obeying import obey
-from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle, Truth
+from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle, Truth
 from signimit.benchmark.scoring import count_signs_read, judge_inference, score_path
 from signimit.benchmark.shipped_sessions import get_session, session_hash
 from signimit.benchmark.splits import entry_stream, get_split, with_more_demonstrations
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import Record
 from signimit.learners.base import Understanding
-from signimit.teaching.sessions import Session
+from signimit.policies import CONTROL_PERIOD, run_policy
+from signimit.teaching.sessions import Command, Session
 
 WAITING = 2  # batches a worker that wait or run: enough that none idles, few enough for millions of tasks
+SECONDS = 10.0  # how long a hand moves for each command
+FASTEST = 1.2  # m/s along either axis, the arm's `max_hand_speed`; what is faster is slowed down as a whole
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -134,6 +137,40 @@ def _score_commands(
         scores["read"] = read
     families = [c.family for c in session.commands]
     return scores | ({"families": families} if len(set(families)) < len(families) else {})
+
+
+def obey(entry: Entry, command: Command, seconds: float = SECONDS) -> NDArray[np.float64]:
+    """Let an entry answer a command; the hand is a point that follows exactly.
+
+    Returns:
+        Where the hand was at the start and after every control period, shape (T + 1, 2), m, table frame.
+
+    Raises:
+        InvalidInputError: If the entry commands what is not a velocity.
+    """
+    entry.begin(command.signs, command.objects)
+    velocity, step = np.zeros(2), 0
+
+    def act(hand: NDArray[np.float64]) -> NDArray[np.float64]:
+        nonlocal velocity, step
+        given = entry.act(Observation(hand.copy(), velocity.copy(), step * CONTROL_PERIOD))
+        velocity, step = _check_velocity(given, step), step + 1
+        return velocity
+
+    return run_policy(act, command.hand, seconds)
+
+
+def _check_velocity(given: Any, step: int) -> NDArray[np.float64]:
+    """Return a velocity that the arm can have, shape (2,), m/s."""
+    try:
+        velocity = np.array(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        velocity = np.empty(0)
+    x, y = velocity.tolist() if velocity.shape == (2,) else (math.nan, math.nan)
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise InvalidInputError(f"act at step {step}", "a finite velocity of shape (2,), m/s", f"{given!r:.60}")
+    allowed: NDArray[np.float64] = velocity / max(1.0, abs(x) / FASTEST, abs(y) / FASTEST)
+    return allowed
 
 
 @cache

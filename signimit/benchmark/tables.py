@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from signimit.benchmark.obeying import SECONDS
 from signimit.benchmark.results import Summary
+from signimit.benchmark.running import SECONDS
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES
 

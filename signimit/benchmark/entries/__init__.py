@@ -16,11 +16,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import NamedTuple
 
-from signimit.benchmark.entries.chance import Chance
+from signimit.benchmark.entries.baselines import Chance, Replay, ReplayNearby
+from signimit.benchmark.entries.cloning import NearestNeighbourCloning
 from signimit.benchmark.entries.imitator import learner_entrant
-from signimit.benchmark.entries.knn_cloning import NearestNeighbourCloning
 from signimit.benchmark.entries.oracles import AllKnowing, oracle_focus, oracle_grouping
-from signimit.benchmark.entries.replay import Replay, ReplayNearby
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle
 from signimit.exceptions import InvalidInputError, UnknownNameError
 

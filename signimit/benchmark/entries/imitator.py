@@ -7,12 +7,24 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.benchmark.entries.following import Follower
-from signimit.benchmark.protocol import Entrant, Kit
+from signimit.benchmark.protocol import Entrant, Kit, Observation
 from signimit.demonstrations import DemonstrationSet
 from signimit.learners.base import Reading, Understanding
 from signimit.learning import ImitationModel, learn
-from signimit.policies import DEFAULT_POLICY
+from signimit.policies import DEFAULT_POLICY, Policy
+
+
+class Follower:
+    """Base of entries that answer a command with a policy in the table frame."""
+
+    def follow(self, policy: Policy) -> None:
+        """Begin to follow a policy."""
+        self._policy, self._state = policy, policy.start()
+
+    def act(self, observation: Observation) -> NDArray[np.float64]:
+        """Return the policy's velocity for the next control period, shape (2,), m/s."""
+        self._state, velocity = self._policy.step(self._state, observation.hand)
+        return velocity
 
 
 class Imitator(Follower):
@@ -20,7 +32,7 @@ class Imitator(Follower):
 
     Attributes:
         understanding: What was inferred.
-        reading: What the last utterance asked for, in the model's eyes: all weight on its choice.
+        reading: What the last utterance asked for, by the model: all weight on its choice.
     """
 
     understanding: Understanding

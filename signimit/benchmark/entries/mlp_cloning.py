@@ -7,8 +7,13 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.benchmark.entries.layers import perceptron_output, rectified
-from signimit.benchmark.entries.samples import Samples, samples_of, utterance_features
+from signimit.benchmark.entries.cloning import (
+    Moments,
+    collect_moments,
+    perceptron_output,
+    rectified,
+    utterance_features,
+)
 from signimit.benchmark.protocol import Kit, Observation
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import MissingDependencyError
@@ -39,7 +44,7 @@ class PerceptronCloning:
     """
 
     def __init__(self, kit: Kit) -> None:
-        """Take the die."""
+        """Store the session's random generator."""
         self._rng = kit.rng
 
     def observe(self, demonstrations: DemonstrationSet) -> None:
@@ -49,7 +54,7 @@ class PerceptronCloning:
         components = np.linalg.svd(signs - self._mean_sign, full_matrices=False)[2][:COMPONENTS].T
         self._components = components / ((signs @ components).std(axis=0).max() or 1.0)
         codes = (signs - self._mean_sign) @ self._components
-        inputs, outputs = self._lesson(samples_of(demonstrations), codes, demonstrations.objects)
+        inputs, outputs = self._training_set(collect_moments(demonstrations), codes, demonstrations.objects)
         self._mean, self._scale = inputs.mean(axis=0), inputs.std(axis=0) + 1e-9
         seed = int(self._rng.integers(2**31))
         network = MLPRegressor(
@@ -60,13 +65,13 @@ class PerceptronCloning:
             network.fit((inputs - self._mean) / self._scale, outputs)
         self._layers = list(zip(network.coefs_, network.intercepts_, strict=True))
 
-    def _lesson(
-        self, samples: Samples, codes: NDArray[np.float64], objects: NDArray[np.float64]
+    def _training_set(
+        self, moments: Moments, codes: NDArray[np.float64], objects: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return inputs and outputs, undisturbed and disturbed."""
-        which, hand, velocity = (np.concatenate([part] * COPIES) for part in samples)
+        which, hand, velocity = (np.concatenate([part] * COPIES) for part in moments)
         astray = self._rng.normal(0.0, ASTRAY, hand.shape)
-        astray[: len(samples.hand)] = 0.0
+        astray[: len(moments.hand)] = 0.0
         code = codes[which] + self._rng.normal(0.0, SIGN_NOISE, (len(which), codes.shape[1]))
         return _inputs(code, hand + astray, objects[which]), (velocity - PULL * astray) / SPEED
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.benchmark.entries.following import Follower
-from signimit.benchmark.entries.imitator import Imitator, certain_reading
+from signimit.benchmark.entries.imitator import Follower, Imitator, certain_reading
 from signimit.benchmark.protocol import Kit, Truth
 from signimit.demonstrations import DemonstrationSet
 from signimit.grouping import canonical_labels, group_movements
@@ -66,7 +65,7 @@ class AllKnowing(Follower):
     reading: Reading
 
     def __init__(self, kit: Kit, truth: Truth) -> None:
-        """Take the truth."""
+        """Store the truth."""
         self._truth, self._requests = truth, iter(truth.asked)
 
     def observe(self, demonstrations: DemonstrationSet) -> None:

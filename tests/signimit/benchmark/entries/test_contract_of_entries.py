@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 
 from signimit.benchmark.entries import ENTRANTS, EntrantReference
-from signimit.benchmark.obeying import obey
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle
-from signimit.benchmark.running import Task, make_entry, run_task
+from signimit.benchmark.running import Task, make_entry, obey, run_task
 from signimit.demonstrations import DemonstrationSet
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Language, Request

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from signimit.benchmark.entries import ENTRANTS
-from signimit.benchmark.entries.samples import samples_of
-from signimit.benchmark.obeying import obey
+from signimit.benchmark.entries.cloning import collect_moments
 from signimit.benchmark.protocol import Entrant, Observation
+from signimit.benchmark.running import obey
 from signimit.exceptions import MissingDependencyError
 from signimit.teaching.sessions import Session
 
@@ -51,8 +51,7 @@ def test_settings_and_random_state_are_left_as_they_were(torch: Any, paper_sessi
 def test_a_step_of_the_hand_is_what_the_network_computes(
     name: str, torch: Any, paper_session: Session, observed: Any
 ) -> None:
-    from signimit.benchmark.entries.deep_cloning import NEAR, SPEED
-    from signimit.benchmark.entries.deep_network import sign_channels
+    from signimit.benchmark.entries.deep_cloning import NEAR, SPEED, sign_channels
 
     entry, command = observed(name, paper_session), paper_session.commands[0]
     entry.begin(command.signs, command.objects)
@@ -68,7 +67,7 @@ def test_it_moves_more_as_was_shown_than_a_resting_hand(
     name: str, torch: Any, paper_session: Session, observed: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("signimit.benchmark.entries.deep_cloning.STEPS", 100)
-    entry, samples = observed(name, paper_session), samples_of(paper_session.demonstrations)
+    entry, samples = observed(name, paper_session), collect_moments(paper_session.demonstrations)
     left, all_of_it = 0.0, 0.0
     for number, shown in enumerate(paper_session.demonstrations):
         entry.begin(shown.signs, shown.objects)
@@ -80,8 +79,7 @@ def test_it_moves_more_as_was_shown_than_a_resting_hand(
 
 
 def test_without_pytorch_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch, kit: Any) -> None:
-    for module in ("deep_cloning", "deep_network"):
-        monkeypatch.delitem(sys.modules, f"signimit.benchmark.entries.{module}", raising=False)
+    monkeypatch.delitem(sys.modules, "signimit.benchmark.entries.deep_cloning", raising=False)
     monkeypatch.setitem(sys.modules, "torch", None)
     entrant = ENTRANTS["deep-12"]
     assert isinstance(entrant, Entrant)

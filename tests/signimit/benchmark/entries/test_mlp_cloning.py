@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from signimit.benchmark.entries import ENTRANTS
-from signimit.benchmark.entries.samples import samples_of
-from signimit.benchmark.obeying import obey
+from signimit.benchmark.entries.cloning import collect_moments
 from signimit.benchmark.protocol import Entrant, Kit, Observation
+from signimit.benchmark.running import obey
 from signimit.exceptions import MissingDependencyError
 from signimit.teaching.sessions import Session
 
@@ -24,7 +24,7 @@ def short_training(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_it_moves_as_was_shown_where_it_was_shown(paper_session: Session, observed: Any) -> None:
     entry = observed("clone-mlp", paper_session)
     left, all_of_it = 0.0, 0.0
-    samples = samples_of(paper_session.demonstrations)
+    samples = collect_moments(paper_session.demonstrations)
     for number, shown in enumerate(paper_session.demonstrations):
         entry.begin(shown.signs, shown.objects)
         own = np.flatnonzero(samples.demonstration == number)[::40]
