@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import signimit
-from signimit.benchmark.obeying import FASTEST
+from signimit.benchmark.running import FASTEST
 from signimit.explanation import object_name
 from signimit.policies import CONTROL_PERIOD
 from signimit_envs.arm.inverse_kinematics import HandController
