@@ -8,7 +8,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.paths import headings, nearest_distances, nearest_points, resample_path, step_lengths, unit_tangents
+from signimit.paths import (
+    half_size,
+    headings,
+    nearest_distances,
+    nearest_points,
+    resample_path,
+    step_lengths,
+    unit_tangents,
+)
 from signimit.validation import finite_array, item_list, moving_points
 
 TOLERANCE = 0.35  # path error up to which a path counts as a movement, in half sizes of what was shown
@@ -53,7 +61,7 @@ def make_template(loop: ArrayLike) -> Template:
     """Prepare one shown drawing, shape (T, 2), m, in the object's frame."""
     points = moving_points(loop, "template")
     resampled = resample_path(points, _TEMPLATE_SAMPLES)
-    return Template(resampled, unit_tangents(resampled), float(np.abs(points).max()))
+    return Template(resampled, unit_tangents(resampled), half_size(points))
 
 
 def performed(path: ArrayLike, objects: ArrayLike, templates: Sequence[Sequence[ArrayLike]]) -> Performance:

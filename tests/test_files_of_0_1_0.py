@@ -44,10 +44,10 @@ def need_extras(name: str) -> None:
         pytest.importorskip(package)
 
 
-def same(found: ArrayLike, written: ArrayLike) -> bool:
+def same(found: ArrayLike, written: ArrayLike, tolerance: float = 1.5e-6) -> bool:
     """Tell whether numbers are those that were written down with six digits."""
     there, then = np.asarray(found, dtype=float), np.asarray(written, dtype=float)
-    return there.shape == then.shape and bool((np.abs(there - then) <= 1.5e-6 * np.maximum(1.0, np.abs(then))).all())
+    return there.shape == then.shape and bool((np.abs(there - then) <= tolerance * np.maximum(1.0, np.abs(then))).all())
 
 
 def is_demonstrations(found: si.DemonstrationSet, written: list[dict[str, Any]]) -> bool:
@@ -118,8 +118,11 @@ def test_models_answer_as_they_did(name: str) -> None:
         response = model.respond(question.signs, question.objects)
         assert (response.movement, response.focus) == (answer["movement"], answer["focus"])
         assert same(response.confidence, answer["confidence"])
-        assert same(response.policy(HANDS), answer["velocities"])
-        assert same(response.policy(HANDS[1]), answer["velocities"][1])
+        # A model's policy is not in its file but learned anew. What 0.1.0 called half size was the root mean square
+        # radius; in half sizes, demonstrations are aligned a little otherwise, and their shared path moves by 1 mm.
+        tolerance = 1.5e-6 if response.policy.kind == "knn" else 0.06  # m/s
+        assert same(response.policy(HANDS), answer["velocities"], tolerance)
+        assert same(response.policy(HANDS[1]), answer["velocities"][1], tolerance)
 
 
 def test_models_go_on_learning_and_are_written_anew(tmp_path: Path) -> None:

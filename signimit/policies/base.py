@@ -23,7 +23,8 @@ CONTROL_PERIOD = 0.02  # s, of every closed loop of this project, simulated arm 
 FARTHEST = 1e3  # m; no table is wider, and squares of anything below stay finite
 
 Array = NDArray[np.float64]
-_FILE_KIND, _FILE_VERSION = "policy", 1
+_FILE_KIND, _FILE_VERSION = "policy", 2
+RMS_RADIUS = 0.8  # half sizes; of 13 movements of built-in people 0.74 in the median, of 7 of real people 0.83
 
 
 class Policy(ABC):
@@ -231,11 +232,16 @@ class StoredPolicy(Policy):
 def read_policy_arrays(path: str | os.PathLike[str]) -> tuple[str, dict[str, Array]]:
     """Return the kind of policy that a file holds, and its arrays.
 
+    Version 1 measured gaps in the root mean square radius of the movement, ``scale``. The ``half_size`` made of it is
+    that of a typical movement of this radius, so that such a policy tells near from far where it did.
+
     Raises:
         FileFormatError: If it is not a whole policy file.
     """
-    archive = read_archive(path, _FILE_KIND, _FILE_VERSION)
-    return str(archive.meta.get("policy", "")), archive.arrays
+    arrays, meta = read_archive(path, _FILE_KIND, _FILE_VERSION)
+    if "scale" in arrays:
+        arrays["half_size"] = arrays.pop("scale") / RMS_RADIUS
+    return str(meta.get("policy", "")), arrays
 
 
 def check_demonstrations(paths: Sequence[ArrayLike], times: Sequence[ArrayLike]) -> tuple[Stroke, ...]:

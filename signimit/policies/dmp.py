@@ -23,8 +23,8 @@ from signimit.strokes import Stroke
 BASES = 40  # basis functions of the forcing term
 FREQUENCY = 10.0  # rad/s
 DECAY = 3.0  # of the discrete primitive's gate over its duration
-ARRIVED = 0.15  # half sizes from the course at which the reach ends
-PATIENCE = 0.3  # half sizes of error that halve the phase's speed (phase stopping)
+ARRIVED = 0.12  # half sizes from the course at which the reach ends
+PATIENCE = 0.24  # half sizes of error that halve the phase's speed (phase stopping)
 RIDGE = 1e-6  # added to the diagonal of the bases' Gram matrix: where no node is, a weight is 0
 
 
@@ -52,7 +52,7 @@ class DMPPolicy(StoredPolicy):
         weights: Of the basis functions of the forcing term, shape (BASES, 2), m/s².
         course: What the primitive was learned from, one control period a node, shape (M, 2), m.
         closed: Whether it is rhythmic (1) or discrete (0).
-        scale: Half size of the movement, m.
+        half_size: Half of the larger extent of the movement, m.
         reach_speed: Greatest speed of the reach, m/s.
         frequency: Of the spring, rad/s: an error is forgotten within about 3 / frequency seconds; a stiffer spring asks
             for higher speeds after a shove.
@@ -62,7 +62,7 @@ class DMPPolicy(StoredPolicy):
     weights: Array
     course: Array
     closed: float
-    scale: float
+    half_size: float
     reach_speed: float
     frequency: float = FREQUENCY
     _goal: Array = field(init=False, repr=False)
@@ -92,7 +92,7 @@ class DMPPolicy(StoredPolicy):
         wanted = acceleration - frequency**2 * (goal - nodes) + 2 * frequency * velocity
         bases = _bases(np.arange(len(nodes)) / len(nodes), course.closed)
         weights = np.linalg.solve(bases.T @ bases + RIDGE * np.eye(BASES), bases.T @ wanted)
-        return cls(weights, nodes, float(course.closed), course.scale, course.reach_speed, frequency)
+        return cls(weights, nodes, float(course.closed), course.half_size, course.reach_speed, frequency)
 
     def start(self) -> PrimitiveState:
         """Return the state of hands not seen yet."""
@@ -106,13 +106,13 @@ class DMPPolicy(StoredPolicy):
         here = self._place(phases)
         gap = here - flat
         distance = np.sqrt((gap**2).sum(axis=1))
-        drawing = drawing | (distance < ARRIVED * self.scale)
+        drawing = drawing | (distance < ARRIVED * self.half_size)
         force = _bases(phases, bool(self.closed)) @ self.weights
         target = np.where(drawing[:, None], self._goal - flat, gap)
         pushed = self.frequency**2 * target - 2 * self.frequency * velocity + force * drawing[:, None]
         velocity = velocity + CONTROL_PERIOD * pushed
         velocity = np.where(drawing[:, None], velocity, within_speed(velocity, self.reach_speed))
-        pace = drawing / (1.0 + (distance / (PATIENCE * self.scale)) ** 2) / len(self.course)
+        pace = drawing / (1.0 + (distance / (PATIENCE * self.half_size)) ** 2) / len(self.course)
         onward = (phases + pace) % 1.0 if self.closed else np.minimum(phases + 1.0 / len(self.course), 1.0)
         shape, answer = hands.shape[:-1], velocity.reshape(hands.shape)
         begun = drawing.reshape(shape)

@@ -23,9 +23,9 @@ from signimit.strokes import Stroke
 
 # Chosen on six people of the $1 recogniser's data, four demonstrations a movement (docs/policies.md).
 PULL = 15.0  # 1/s
-NEAR = 0.12  # half sizes
-SURE = 0.05  # half sizes; a hand so close to the expected place is taken to be there
-LOST = 0.4  # half sizes; further, the phase is looked for everywhere
+NEAR = 0.096  # half sizes
+SURE = 0.04  # half sizes; a hand so close to the expected place is taken to be there
+LOST = 0.32  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
 ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
 _AROUND = np.arange(-LOOK_AROUND, LOOK_AROUND + 1)
@@ -61,7 +61,7 @@ class PathFollowingPolicy(StoredPolicy):
     Attributes:
         course: Positions at equal steps of time, shape (M, 2), m, object's frame.
         closed: Whether the course goes round (1) or ends at the last node, a goal (0).
-        scale: Half size of the movement, m.
+        half_size: Half of the larger extent of the movement, m.
         reach_speed: Speed on the way to the course, m/s.
         pull: Speed towards the course for each metre off it, 1/s, up to ``reach_speed``: a stronger pull is back sooner
             after a shove, and swings where an arm follows late.
@@ -72,7 +72,7 @@ class PathFollowingPolicy(StoredPolicy):
     kind: ClassVar[str] = "path-following"
     course: Array
     closed: float
-    scale: float
+    half_size: float
     reach_speed: float
     pull: float = PULL
     near: float = NEAR
@@ -85,8 +85,8 @@ class PathFollowingPolicy(StoredPolicy):
         super().__post_init__()
         if self.course.ndim != 2 or self.course.shape[1] != 2 or len(self.course) < 2:
             raise InvalidInputError("policy: course", "shape (M, 2)", f"shape {self.course.shape}")
-        if not (0 < self.scale < np.inf and 0 < self.reach_speed < np.inf):
-            raise InvalidInputError("policy: scale, speed", "positive", f"{self.scale}, {self.reach_speed}")
+        if not (0 < self.half_size < np.inf and 0 < self.reach_speed < np.inf):
+            raise InvalidInputError("policy: half size, speed", "positive", f"{self.half_size}, {self.reach_speed}")
         if not (0 < self.pull < 1 / CONTROL_PERIOD and 0 < self.near < LOST):
             expected = f"above 0, pull below {1 / CONTROL_PERIOD:g} per second and near below {LOST} half sizes"
             raise InvalidInputError("pull, near", expected, f"{self.pull}, {self.near}")
@@ -102,7 +102,7 @@ class PathFollowingPolicy(StoredPolicy):
     def learn(cls, demonstrations: Sequence[Stroke], *, pull: float = PULL, near: float = NEAR) -> Self:
         """Find the shared course and lay it out in time."""
         course = learn_reference_path(demonstrations)
-        return cls(time_course(course), float(course.closed), course.scale, course.reach_speed, pull, near)
+        return cls(time_course(course), float(course.closed), course.half_size, course.reach_speed, pull, near)
 
     def start(self) -> PhaseState:
         """Return the state of hands not seen yet."""
@@ -135,7 +135,7 @@ class PathFollowingPolicy(StoredPolicy):
         node_x, node_y, ahead_x, ahead_y = self._at(nodes, xp)
         gap_x, gap_y = node_x - x, node_y - y
         distance = xp.sqrt(gap_x * gap_x + gap_y * gap_y)
-        square = (distance / (self.near * self.scale)) ** 2
+        square = (distance / (self.near * self.half_size)) ** 2
         follow = 1.0 / (1.0 + square * square)
         pull = xp.minimum(self.pull, self.reach_speed / xp.maximum(distance, 1e-9))
         velocity = np.array([follow * ahead_x + pull * gap_x, follow * ahead_y + pull * gap_y]).T
@@ -149,12 +149,12 @@ class PathFollowingPolicy(StoredPolicy):
         node_x, node_y, _, _ = self._at(expected, xp)
         gap_x, gap_y = node_x - x, node_y - y
         squares = gap_x * gap_x + gap_y * gap_y
-        astray = squares > (SURE * self.scale) ** 2
+        astray = squares > (SURE * self.half_size) ** 2
         if not xp.any(astray):
             return expected
         nodes, flat = np.array(expected, ndmin=1), hands.reshape(-1, 2)
-        late = np.flatnonzero(astray & (squares <= (LOST * self.scale) ** 2))
-        lost = np.flatnonzero(squares > (LOST * self.scale) ** 2)
+        late = np.flatnonzero(astray & (squares <= (LOST * self.half_size) ** 2))
+        lost = np.flatnonzero(squares > (LOST * self.half_size) ** 2)
         if len(late):
             around = self._clip(nodes[late, None] + _AROUND, np)
             gaps = self.course.take(around, axis=0) - flat[late, None]
@@ -174,7 +174,7 @@ class PathFollowingPolicy(StoredPolicy):
         if not self.closed:
             if coming is None:
                 gap = self.course[nodes] - hands
-                coming = np.einsum("bd,bd->b", gap, gap) > (LOST * self.scale) ** 2
+                coming = np.einsum("bd,bd->b", gap, gap) > (LOST * self.half_size) ** 2
             nodes[coming] = self._nearest(hands[coming], self._entry)
         return nodes
 

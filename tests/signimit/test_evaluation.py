@@ -102,6 +102,13 @@ def test_a_movements_error_is_the_mean_of_its_two_best_drawings() -> None:
     assert together == pytest.approx((alone[0] + alone[1]) / 2)
 
 
+def test_a_drawing_beside_its_object_is_judged_as_one_about_it() -> None:
+    aside, path = np.array([0.3, -0.2]), circle(3, 0.11)
+    about = performed(path, [[0.0, 0.0]], [[circle()]])
+    beside = performed(path + aside, [[0.0, 0.0]], [[circle() + aside]])
+    assert beside[:4] == pytest.approx(about[:4])
+
+
 @properties
 @given(st.floats(-100, 100), st.floats(-100, 100), st.integers(0, 3), st.integers(0, 2))
 def test_moving_path_and_objects_together_changes_nothing(x: float, y: float, movement: int, focus: int) -> None:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signimit.evaluation import TOLERANCE, make_template, movement_error, settled_part
-from signimit.paths import nearest_distances, nearest_points, resample_path, step_lengths
+from signimit.paths import half_size, nearest_distances, nearest_points, resample_path, step_lengths
 from signimit.policies.base import CONTROL_PERIOD, Array
 from signimit.policies.closed_loop import Advance, count_steps, move_exactly
 
@@ -72,16 +72,16 @@ def corner_gap(settled: Array, loop: Array) -> float:
     """Return how far the path stays from the loop's farthest-out points, in half sizes."""
     points = resample_path(loop, 200)
     corners = points[np.argsort(-np.hypot(*points.T))[:CORNER_POINTS]]
-    return float(nearest_distances(corners, settled).mean() / np.abs(loop).max())
+    return float(nearest_distances(corners, settled).mean() / half_size(loop))
 
 
 def detour(path: Array, loop: Array) -> float:
     """Return the way to the loop over the straight way; NaN for a hand that began near it."""
-    half_size = float(np.abs(loop).max())
+    unit = half_size(loop)
     gaps = nearest_distances(path, resample_path(loop, 200))
-    if gaps[0] <= FAR * half_size:
+    if gaps[0] <= FAR * unit:
         return float("nan")
-    reached = gaps < REACHED * half_size
+    reached = gaps < REACHED * unit
     arrival = int(reached.argmax()) if reached.any() else len(path) - 1
     return float(step_lengths(path[: arrival + 1]).sum() / gaps[0])
 
@@ -102,9 +102,8 @@ def back_after_shove(path: Array, loops: Sequence[Array]) -> Array:
     """Return which hands, shoved half way, are on a drawn loop for the second after the next, shape (B,), 0 or 1."""
     begin = (len(path) - 1) // 2 + round(1.0 / CONTROL_PERIOD)
     window = path[begin : begin + round(1.0 / CONTROL_PERIOD)]
-    half_size = float(np.abs(loops[0]).max())
     gaps = nearest_distances(window.reshape(-1, 2), np.concatenate(loops)).reshape(window.shape[:-1])
-    return np.asarray((gaps < BACK * half_size).all(axis=0), dtype=np.float64)
+    return np.asarray((gaps < BACK * half_size(loops[0])).all(axis=0), dtype=np.float64)
 
 
 def arrives_and_stays(path: Array, goal: Array, tolerance: float) -> Array:

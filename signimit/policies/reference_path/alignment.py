@@ -18,10 +18,11 @@ from scipy.spatial.distance import cdist
 from signimit.paths import unit_tangents
 from signimit.policies.base import Array
 
-FARTHEST_GAP = 0.8  # in half sizes; a wrong member or a slip of the pen costs no more than this a point
-DIRECTION_WEIGHT = 0.25  # of 1 - cos of the angle between the directions of motion
-REACH_COST = 0.45  # a point of the reach; a drawn point is about 0.15, one that only crosses the course 0.6
-ADVANCE_COSTS = (0.02, 0.0, 0.02, 0.06)  # of moving on by 0, 1, 2, 3 nodes from one point to the next
+# Costs of a point, all in half sizes.
+FARTHEST_GAP = 0.64  # a wrong member or a slip of the pen costs no more than this a point
+DIRECTION_WEIGHT = 0.2  # of 1 - cos of the angle between the directions of motion
+REACH_COST = 0.36  # a point of the reach; a drawn point is about 0.12, one that only crosses the course 0.48
+ADVANCE_COSTS = (0.016, 0.0, 0.016, 0.048)  # of moving on by 0, 1, 2, 3 nodes from one point to the next
 
 
 class PhaseAlignment(NamedTuple):
@@ -36,25 +37,25 @@ class PhaseAlignment(NamedTuple):
     cost: float
 
 
-def align_phases(paths: Sequence[Array], course: Array, closed: bool, scale: float) -> list[PhaseAlignment]:
+def align_phases(paths: Sequence[Array], course: Array, closed: bool, unit: float) -> list[PhaseAlignment]:
     """Find the phase of every point of every path.
 
     Args:
         paths: Positions at equal steps of length, each of shape (n, 2), m.
         course: Nodes at the same steps, shape (M, 2), m.
         closed: Whether the last node is followed by the first.
-        scale: Half size of the movement, m: the unit of a gap.
+        unit: Half size of the movement, m: the unit of a gap.
     """
-    costs = _accumulate(_local_costs(paths, course, closed, scale), closed)
+    costs = _accumulate(_local_costs(paths, course, closed, unit), closed)
     return [_trace(costs[:, d], len(path), closed) for d, path in enumerate(paths)]
 
 
-def _local_costs(paths: Sequence[Array], course: Array, closed: bool, scale: float) -> Array:
+def _local_costs(paths: Sequence[Array], course: Array, closed: bool, unit: float) -> Array:
     """Return the cost of each point at each node, shape (n, D, M); zero after a path's end."""
     local = np.zeros((max(map(len, paths)), len(paths), len(course)))
     tangents = unit_tangents(course, closed)
     for d, path in enumerate(paths):
-        gaps = cdist(path, course) / scale
+        gaps = cdist(path, course) / unit
         turned = 1.0 - unit_tangents(path) @ tangents.T
         local[: len(path), d] = np.minimum(gaps, FARTHEST_GAP) + DIRECTION_WEIGHT * turned
     return local

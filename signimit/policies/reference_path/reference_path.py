@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.paths import TimedPath, arc_lengths, space_path, space_timed_path
+from signimit.paths import TimedPath, arc_lengths, half_size, space_path, space_timed_path
 from signimit.policies.base import Array
 from signimit.policies.reference_path.alignment import PhaseAlignment, align_phases
 from signimit.policies.reference_path.averaging import MeanPass, cut_passes, mean_pass
@@ -26,7 +26,8 @@ LONGEST = 4  # typical lengths; what is longer is sampled more coarsely
 MOST_MODELS = 8  # demonstrations that candidate courses are taken from
 MOST_CHOSEN_BY = 12  # demonstrations that choose among them
 MOST_REFINED_BY = 40  # demonstrations averaged; more add time, not accuracy
-NODE_COST = 0.25  # of a node, in the unit of a point's cost: a longer course must pay for itself
+RETURN_GAP = 0.8  # half sizes from a demonstration's end, within which an earlier place may have begun its last round
+NODE_COST = 0.2  # half sizes; of a node, beside the costs of points: a longer course must pay for itself
 INLIERS = 0.8  # of the demonstrations choose the course: a wrong member has no say
 FEWEST_ROUNDS = 1.3  # the typical demonstration of a repeating movement goes round at least so often
 REFINEMENTS = 3
@@ -41,14 +42,14 @@ class ReferencePath(NamedTuple):
         points: Nodes at equal steps of length, shape (M, 2), m.
         speeds: Mean speed from each node to the next, shape (M,), m/s; zero where nobody showed it.
         closed: Whether the movement goes round and round, or ends at the last node.
-        scale: Half size of the movement, m.
+        half_size: Half of the larger extent of the movement, m.
         reach_speed: Mean speed of the demonstrators on their way to the course, m/s.
     """
 
     points: Array
     speeds: Array
     closed: bool
-    scale: float
+    half_size: float
     reach_speed: float
 
 
@@ -57,9 +58,9 @@ def learn_reference_path(demonstrations: Sequence[Stroke]) -> ReferencePath:
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
     chosen = _spread(demonstrations, MOST_CHOSEN_BY)
     coarse = [space_path(d.points, length / COARSE, most=LONGEST * COARSE) for d in chosen]
-    scale = float(np.median([_half_size(path) for path in coarse]))
-    points, closed = _choose_course(coarse, scale)
-    return _refine_course(_spread(demonstrations, MOST_REFINED_BY), points, closed, scale)
+    unit = float(np.median([half_size(path[len(path) // 2 :]) for path in coarse]))  # the reach is over by then
+    points, closed = _choose_course(coarse, unit)
+    return _refine_course(_spread(demonstrations, MOST_REFINED_BY), points, closed, unit)
 
 
 def _spread(demonstrations: Sequence[Stroke], most: int) -> list[Stroke]:
@@ -68,27 +69,21 @@ def _spread(demonstrations: Sequence[Stroke], most: int) -> list[Stroke]:
     return [demonstrations[i * count // min(most, count)] for i in range(min(most, count))]
 
 
-def _half_size(path: Array) -> float:
-    """Return the root mean square distance of the path's later half from its centre, m."""
-    late = path[len(path) // 2 :]
-    return float(np.sqrt(((late - late.mean(axis=0)) ** 2).sum(axis=1).mean()))
-
-
-def _candidates(path: Array, scale: float) -> Iterator[tuple[Array, bool]]:
+def _candidates(path: Array, unit: float) -> Iterator[tuple[Array, bool]]:
     """Yield possible courses: the rounds that a path's end may close, and the whole path as an open course."""
     gaps = np.hypot(*(path - path[-1]).T)
     for i in range(1, len(path) - 8):
-        if gaps[i] <= gaps[i - 1] and gaps[i] < gaps[i + 1] and gaps[i] < scale:
+        if gaps[i] <= gaps[i - 1] and gaps[i] < gaps[i + 1] and gaps[i] < RETURN_GAP * unit:
             yield path[i:-1], True
     yield path, False
 
 
-def _choose_course(paths: Sequence[Array], scale: float) -> tuple[Array, bool]:
+def _choose_course(paths: Sequence[Array], unit: float) -> tuple[Array, bool]:
     """Return the nodes of the cheapest candidate, and whether it is closed."""
     best, choice = np.inf, (paths[0], False)
     for path in paths[:MOST_MODELS]:
-        for points, closed in _candidates(path, scale):
-            alignments = align_phases(paths, points, closed, scale)
+        for points, closed in _candidates(path, unit):
+            alignments = align_phases(paths, points, closed, unit)
             if closed and np.median([_rounds(a.phases, len(points)) for a in alignments]) < FEWEST_ROUNDS:
                 continue
             costs = np.sort([a.cost for a in alignments])[: int(np.ceil(INLIERS * len(paths)))]
@@ -103,7 +98,7 @@ def _rounds(phases: NDArray[np.int64], nodes: int) -> float:
     return float(drawn[-1] - drawn[0]) / nodes
 
 
-def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool, scale: float) -> ReferencePath:
+def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool, unit: float) -> ReferencePath:
     """Align, average, and begin again with the average."""
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
     spacing = length / FINE
@@ -112,7 +107,7 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
     alignments: list[PhaseAlignment] = []
     for _ in range(REFINEMENTS):
         nodes = space_path(mean.points, spacing, closed, LONGEST * FINE)
-        alignments = align_phases([p.points for p in paths], nodes, closed, scale)
+        alignments = align_phases([p.points for p in paths], nodes, closed, unit)
         shortest = SHORTEST_PASS if closed else 0.0
         passes = [
             one
@@ -120,8 +115,8 @@ def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool
             for one in cut_passes(path, alignment.phases, len(nodes), shortest)
         ]
         mean = _shared_part(mean_pass(passes), 0.0 if closed else 0.5 * len(paths))
-    line, speeds = close_loop(mean.points, mean.speeds, scale) if closed else (mean.points, mean.speeds)
-    return ReferencePath(line, speeds, closed, scale, _reach_speed(paths, alignments))
+    line, speeds = close_loop(mean.points, mean.speeds, unit) if closed else (mean.points, mean.speeds)
+    return ReferencePath(line, speeds, closed, unit, _reach_speed(paths, alignments))
 
 
 def _shared_part(mean: MeanPass, fewest: float) -> MeanPass:

@@ -29,8 +29,8 @@ def test_it_reaches_the_drawing_then_repeats_it(label: str, shown: Callable[...,
     hands = np.random.default_rng(0).uniform(-0.4, 0.4, (20, 2))
     path = drive(policy, hands, 500)[250:]
     gaps = cdist(path.reshape(-1, 2), policy.course)
-    assert gaps.min(axis=1).mean() < 0.1 * policy.scale
-    assert gaps.min(axis=0).max() < 0.3 * policy.scale
+    assert gaps.min(axis=1).mean() < 0.1 * policy.half_size
+    assert gaps.min(axis=0).max() < 0.3 * policy.half_size
 
 
 @pytest.mark.parametrize("start", [[0.3, 0.2], [-0.3, 0.0], [0.0, 0.0]])

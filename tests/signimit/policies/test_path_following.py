@@ -38,7 +38,7 @@ def drive(
 def away(policy: PathFollowingPolicy, hands: Array) -> Array:
     """Distance to the nearest node, in half sizes."""
     gaps: Array = cdist(hands.reshape(-1, 2), policy.course).min(axis=1).reshape(hands.shape[:-1])
-    return gaps / policy.scale
+    return gaps / policy.half_size
 
 
 CIRCLE = 0.1 * np.column_stack([f(2 * np.pi * np.arange(100) / 100) for f in (np.cos, np.sin)])
@@ -46,7 +46,7 @@ EIGHT = 0.1 * np.column_stack([np.sin(2 * np.pi * k * np.arange(120) / 120) for 
 
 
 def following(course: Array, closed: float = 1.0) -> PathFollowingPolicy:
-    return PathFollowingPolicy(course=course, closed=closed, scale=0.1, reach_speed=0.3)
+    return PathFollowingPolicy(course=course, closed=closed, half_size=0.1, reach_speed=0.3)
 
 
 @pytest.mark.parametrize("label", [*MOVEMENT_LABELS, *GOAL_LABELS])
@@ -60,7 +60,7 @@ def test_ten_thousand_hands_stay_on_the_table_and_end_up_drawing(label: str, sho
         assert (np.abs(path + focus) < TABLE + 1e-3).all()
         assert away(policy, path[200:]).max() < 0.3
         way = np.hypot(*np.moveaxis(np.diff(path[200:], axis=0), -1, 0)).sum(axis=0)
-        assert (way > 0.5 * policy.scale).all() if policy.closed else (way < 0.01).all()
+        assert (way > 0.5 * policy.half_size).all() if policy.closed else (way < 0.01).all()
 
 
 def test_a_hand_on_the_course_moves_from_node_to_node() -> None:
@@ -145,4 +145,4 @@ def test_states_are_values(shown: Compose) -> None:
 def test_a_course_of_another_shape_is_refused() -> None:
     for course, scale in ((np.zeros((3, 3)), 0.1), (CIRCLE[:1], 0.1), (CIRCLE, 0.0)):
         with pytest.raises(InvalidInputError, match="policy"):
-            PathFollowingPolicy(course=course, closed=1.0, scale=scale, reach_speed=0.3)
+            PathFollowingPolicy(course=course, closed=1.0, half_size=scale, reach_speed=0.3)

@@ -236,7 +236,7 @@ def test_non_finite_arrays_in_a_file_are_refused(tmp_path: Path) -> None:
 
 OPTIONS = [
     ("path-following", "pull", 10.0, 15.0),
-    ("path-following", "near", 0.2, 0.12),
+    ("path-following", "near", 0.2, 0.096),
     ("knn", "neighbours", 20, 50),
     ("ilo-gmr", "neighbours", 20, 50),
     ("gmr", "components", (2, 3), (1, 2, 3, 4, 6, 8, 10, 12, 16)),
@@ -281,7 +281,7 @@ def test_an_unknown_option_is_refused_with_the_known_ones(shown: Compose) -> Non
         ("dmp", {"frequency": 50.0}, "frequency: expected between 0 and 50 rad/s"),
         ("dmp", {"frequency": np.nan}, "frequency: expected"),
         ("path-following", {"pull": -1.0}, "pull, near: expected above 0"),
-        ("path-following", {"near": 0.4}, "pull, near: expected above 0, .* near below 0.4 half sizes"),
+        ("path-following", {"near": 0.4}, "pull, near: expected above 0, .* near below 0.32 half sizes"),
     ],
 )
 def test_an_option_without_sense_is_refused(kind: str, options: Any, message: str, shown: Compose) -> None:

@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.distance import cdist
 
+from signimit.paths import half_size
 from signimit.policies.base import check_demonstrations
 from signimit.policies.reference_path.reference_path import ReferencePath, learn_reference_path
 from signimit.teaching.people import GOAL_LABELS, MOVEMENT_LABELS
@@ -25,7 +26,7 @@ def learn(shown: Any) -> ReferencePath:
 def misfit(course: ReferencePath, loop: Array) -> float:
     """Mean distance between the nodes and a drawn loop, both ways, in half sizes."""
     gaps = cdist(course.points, loop)
-    return float(gaps.min(axis=1).mean() + gaps.min(axis=0).mean()) / (2 * float(np.abs(loop).max()))
+    return float(gaps.min(axis=1).mean() + gaps.min(axis=0).mean()) / (2 * half_size(loop))
 
 
 @pytest.mark.parametrize("label", MOVEMENT_LABELS)
@@ -58,6 +59,14 @@ def test_a_course_moves_and_grows_with_its_demonstrations(shown: Compose) -> Non
     grown = learn(demonstrations._replace(paths=[2 * p + [0.5, -0.3] for p in demonstrations.paths]))
     np.testing.assert_allclose(grown.points, 2 * plain.points + [0.5, -0.3], atol=1e-6)
     assert grown.reach_speed == pytest.approx(2 * plain.reach_speed)
+    assert grown.half_size == pytest.approx(2 * plain.half_size)
+
+
+@pytest.mark.parametrize("label", MOVEMENT_LABELS)
+def test_its_half_size_is_that_of_the_typical_drawing(label: str, shown: Compose) -> None:
+    demonstrations = shown(label)
+    typical = np.median([half_size(loop) for loop in demonstrations.loops])
+    assert learn(demonstrations).half_size == pytest.approx(typical, rel=0.05)
 
 
 def test_half_as_fast_is_half_the_speed(shown: Compose) -> None:
