@@ -53,7 +53,7 @@ def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.Ca
     assert names["answer"][:2] == (1, 0)
     assert len(names["model"].labels) == 9
     exec(BLOCKS[4], names)
-    assert capsys.readouterr().out == "(256, 401, 2)\n"
+    assert capsys.readouterr().out == "(100, 401, 2)\n"
     last = names["tracks"].paths[:, -100:] - names["scenes"][:, None, 0]
     assert (np.hypot(*last.T).max(axis=0) < 0.2).all()  # a triangle with corners 0.1 to 0.15 m from the object
 

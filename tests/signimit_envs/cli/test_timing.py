@@ -11,7 +11,7 @@ import pytest
 from signimit.benchmark.studies.scaling import CODES, STEPS, Measurement
 from signimit_envs import RenderingError
 from signimit_envs.studio import load
-from signimit_envs.timing import environments, throughput
+from signimit_envs.timing import core, environments, throughput
 from signimit_envs.timing.measuring import Timing
 
 pytest.importorskip("tyro")
@@ -24,7 +24,8 @@ def read_result(folder: Path, name: str, said: str) -> Any:
     return json.loads((folder / f"{name}.json").read_text())
 
 
-def test_the_core(run: Any, tmp_path: Path) -> None:
+def test_the_core(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(core, "time_core", lambda seed, turns: [Timing("Δ of 12 paths", 0.1, 2.0, 0.05, 0.05)])
     facts = read_result(tmp_path, "core", run("timing", "core", "--turns", 1, "--out", tmp_path))
     assert facts["command"].startswith("python -m signimit timing core --turns 1 --out ")
     assert facts["core"][0]["work"] == "Δ of 12 paths"
@@ -54,6 +55,7 @@ def test_many_reproductions(run: Any, tmp_path: Path, monkeypatch: pytest.Monkey
             throughput.BatchSpeed(batch, number, 11.0, 10.5, 6.0) for batch in batches for number in threads
         ],
     )
+    monkeypatch.setattr(throughput, "compose_work", lambda *_: throughput.Work([], [], []))
     monkeypatch.setattr(throughput, "compare_paths", lambda *_: throughput.Agreement("knn", 18, 1e-6, 18))
     monkeypatch.setattr(throughput, "measure_parts", lambda *_: [throughput.Part("everything", 1.0, None)])
     options = ["--batches", 9, 64, "--threads", 0, "--parts-of", 9, "--out", tmp_path / "out"]
