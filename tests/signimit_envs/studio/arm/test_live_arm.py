@@ -222,7 +222,7 @@ def test_the_trail_is_short_and_the_states_do_not_change(arm: LiveArm, policy: s
 
 
 def _wait_for(condition: object) -> None:
-    for _ in range(500):
+    for _ in range(6000):
         if callable(condition) and condition():
             return
         time.sleep(0.01)
