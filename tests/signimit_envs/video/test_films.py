@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from signimit.teaching.people.choosing import choose_people
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
+from signimit_envs.sessions.session import SessionResult
 from signimit_envs.video.films import Film, film_grid, film_shots, film_story
 from signimit_envs.video.overlays import INK, MARK, PAPER, draw_caption, draw_card, draw_label, draw_signs
 from signimit_envs.video.storyboard import (
@@ -22,13 +21,7 @@ from signimit_envs.video.storyboard import (
     tell_story,
 )
 
-PLAN = SessionPlan(attempts=2, seconds=1.0)
 SIGN = np.array([[0, 0], [1, 2], [3, 1.0]])
-
-
-@pytest.fixture(scope="module")
-def result() -> SessionResult:
-    return run_session(PLAN, choose_people(PLAN.language, np.random.default_rng(0)))
 
 
 def colours(picture: NDArray[np.uint8]) -> set[tuple[int, ...]]:
@@ -134,7 +127,7 @@ def test_the_trail_and_the_demonstrators_hand_can_be_seen() -> None:
 
 def test_the_grid_shows_all_pairs_at_once(result: SessionResult) -> None:
     film = film_grid(result)
-    assert film.length == PLAN.seconds * FRAME_RATE + 1
+    assert film.length == result.plan.seconds * FRAME_RATE + 1
     (frame,) = frames_or_skip(film, 1)
     assert frame.shape == (960, 960, 3)
     tiles = frame.reshape(3, 320, 3, 320, 3).swapaxes(1, 2)
