@@ -1,4 +1,4 @@
-"""A running studio, a browser, and somebody who draws in its page with a mouse or a finger."""
+"""Fixtures of the browser tests: a running studio, a browser, and a visitor who draws with a mouse or a finger."""
 
 from __future__ import annotations
 
@@ -244,7 +244,7 @@ def journal(address: str, folder: Path) -> list[str]:
             drawn = {**post(f"{where}/people", {"part": "signs", **more})}
             drawn |= post(f"{where}/people", {"part": "movement", **more})
             session = post(f"{where}/demonstrations", {"revision": session["revision"], **drawn})
-    return (folder / session["id"] / "journal.jsonl").read_text().splitlines(keepends=True)
+    return (folder / str(session["id"]) / "journal.jsonl").read_text().splitlines(keepends=True)
 
 
 @pytest.fixture

@@ -99,7 +99,7 @@ export class SignPad {
     this.changed(true);
   }
 
-  /** Draw a sign as somebody else did, as time goes by; resolves when done. */
+  /** Play a sign that was drawn elsewhere, in time; resolves with whether it came to its end. */
   async play(stroke, speed = PLAYBACK) {
     const whole = fitted(stroke);
     this.put([]);
@@ -139,7 +139,7 @@ export class SignPad {
 
 /**
  * Call back with how many samples have passed, frame by frame, until all have or the callback returns false.
- * Those who want no motion see only the end.
+ * Where no motion is wanted, only the end is shown.
  */
 export function playing(times, show, speed = PLAYBACK) {
   if (calm() || times.length < 2) {

@@ -5,7 +5,7 @@ import { make } from "./dom.js";
 const ME = "me";
 export const BUILT_IN = "built-in";
 
-/** Two choices of who plays; `chosen` is called when one changes. */
+/** Two selects, for interactant and demonstrator; `chosen` is called when one changes. */
 export class Roles {
   constructor(host, chosen) {
     this.interactant = choice("Interactant (makes the signs)", chosen);

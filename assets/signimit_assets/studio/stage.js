@@ -120,7 +120,7 @@ export function drawHand(pen, place, plane = "table") {
   disc(pen, x, y, 6, HAND);
 }
 
-/** Name the objects by letter, for those who do not tell their colours. */
+/** Draw the initials of the objects, for the colour-blind. */
 export function drawLetters(pen, objects) {
   pen.font = "700 17px system-ui, sans-serif";
   pen.textAlign = "center";

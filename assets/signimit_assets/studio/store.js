@@ -37,7 +37,7 @@ export async function open(id) {
 
 export const path = (rest) => `sessions/${store.session.id}${rest && `/${rest}`}`;
 
-/** Change the session; if somebody else did before, show theirs and say so. */
+/** Change the session; if another page did before, show its change and say so. */
 export async function change(work) {
   try {
     return accept(await work(store.session.revision));

@@ -126,7 +126,7 @@ begin().catch((problem) => {
   showError(problem);
   document.body.dataset.ready = "no";
 });
-window.addEventListener("hashchange", () => { // somebody went back, or typed it
+window.addEventListener("hashchange", () => { // by the back button, or typed
   const [view, id] = addressed();
   if (id === store.session?.id && VIEWS.includes(view)) show(view);
   else location.reload();

@@ -109,7 +109,7 @@ export class TeachTable {
     this.stage.paint();
   }
 
-  /** Draw a movement as somebody else did, as time goes by; tells whether it came to its end. */
+  /** Play a movement that was drawn elsewhere, in time; resolves with whether it came to its end. */
   async play(stroke, speed) {
     this.turn += 1;
     const { turn } = this;

@@ -108,7 +108,12 @@ class Camera:
         self._ready.set()
         due, before, drawn_at = time.perf_counter(), None, 0.0
         while not self._stop.is_set():
-            self._render_stills()
+            while not self._wanted.empty():
+                objects, future = self._wanted.get()
+                try:
+                    future.set_result(self._jpeg(objects, PARKED))
+                except Exception as error:
+                    future.set_exception(error)
             state, now = self._look(), time.perf_counter()
             still = before is not None and is_alike(before, state)
             if self._watched() and not (still and now - drawn_at < 1.0 / IDLE_RATE):
@@ -119,14 +124,6 @@ class Camera:
             self._stop.wait(max(0.0, due - time.perf_counter()))
         for renderer in self._renderers.values():
             renderer.close()
-
-    def _render_stills(self) -> None:
-        while not self._wanted.empty():
-            objects, future = self._wanted.get()
-            try:
-                future.set_result(self._jpeg(objects, PARKED))
-            except Exception as error:
-                future.set_exception(error)
 
     def _frame(self, state: LiveState) -> bytes:
         picture = b""

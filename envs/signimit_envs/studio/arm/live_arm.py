@@ -37,7 +37,7 @@ class RealTimeClock:
     A step that was held up is followed by the same steps as ever, closer together, until simulated time has
     caught up: no step is left out or made longer, and nothing runs faster than twice real time, so a viewer sees a
     hand that hurries for as long as it was held up, and never one that jumps. A delay past `LONGEST_DELAY` (a
-    machine that slept) is not made up for but counted, as nobody wants to see seconds of it.
+    machine that slept) is not made up for but counted.
 
     Attributes:
         lost: Time that is not made up for, s.

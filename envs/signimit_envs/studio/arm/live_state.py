@@ -51,7 +51,7 @@ class TrackPart(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class LiveState:
-    """The arm and its table after a control step; nobody writes to the arrays.
+    """The arm and its table after a control step; the arrays are not written to.
 
     Attributes:
         session: Name of the session whose table it is.

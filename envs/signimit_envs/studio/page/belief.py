@@ -77,7 +77,7 @@ def doubts(reasons: Reasons) -> list[dict[str, Any]]:
 
 
 def understood_text(movement: int, focus: int, confidence: float) -> str:
-    """Say what was understood, e.g. "movement 2 about the green object, 94 %"."""
+    """Return a sentence of what was understood, e.g. "movement 2 about the green object, 94 %"."""
     return f"movement {movement} about the {object_name(focus)} object, {100 * confidence:.0f} %"
 
 

@@ -77,7 +77,7 @@ def import_bytes(name: str, content: bytes) -> tuple[DrawnDemonstration, ...]:
         _refuse_bombs(path)
         try:
             shown = FORMATS[name].read(path)
-        except FileFormatError as error:  # the page knows the file by another name than ours
+        except FileFormatError as error:  # the page knows the file by another name than the server
             raise FileFormatError(error.where.replace(str(path), "the file"), error.expected, error.found) from None
     _check_sizes(shown)
     return tuple(shown)
@@ -182,7 +182,11 @@ def _refuse_bombs(path: Path) -> None:
 
 
 def _check_sizes(shown: Demonstrations) -> None:
-    """Refuse what could not have been drawn here."""
+    """Refuse demonstrations that the page could not have sent.
+
+    Raises:
+        InvalidInputError: Names the demonstration and the limit.
+    """
     if len(shown) > LIMITS.demonstrations:
         raise InvalidInputError("the file", f"at most {LIMITS.demonstrations} demonstrations", f"{len(shown)}")
     for number, one in enumerate(shown):

@@ -40,7 +40,7 @@ class NextRequest(NamedTuple):
 
 
 def get_language(name: str) -> Language | None:
-    """Return the language of that name; none for people who make up their own.
+    """Return the language of that name; none for made-up signs.
 
     Raises:
         UnknownNameError: If there is none.
@@ -53,7 +53,7 @@ def get_language(name: str) -> Language | None:
 
 
 def next_request(language: Language, seed: int, prompts: Sequence[Request | None]) -> NextRequest:
-    """Return the first request that still waits; when none does they come round again.
+    """Return the first request that was not demonstrated yet; after the last they begin again.
 
     Args:
         language: What is spoken.

@@ -77,7 +77,7 @@ class SessionStore:
         """Read a session from its journal, leaving out a line that a killed process left half written.
 
         Raises:
-            SignimitError: Names the line that is not ours.
+            SignimitError: Names the line that is no event.
         """
         journal = self._folder / session / _JOURNAL
         events = []

@@ -17,18 +17,20 @@ from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.store.events import Drafted, Signs
 
 _WORDS = 2
-Coordinate = Annotated[float, Field(ge=-LIMITS.coordinate, le=LIMITS.coordinate)]
-Seconds = Annotated[float, Field(ge=0, le=LIMITS.coordinate * 1e6)]
-Point = tuple[Coordinate, Coordinate]
-Revision = Annotated[int, Field(ge=0, le=10 * LIMITS.events)]
-Title = Annotated[str, Field(max_length=LIMITS.title), AfterValidator(lambda text: _printable(text))]
-Number = Annotated[int, Field(ge=0, le=LIMITS.answers)]
 
 
 def _printable(text: str) -> str:
     if not text.isprintable():
         raise ValueError("characters that can be printed only")
     return text
+
+
+Coordinate = Annotated[float, Field(ge=-LIMITS.coordinate, le=LIMITS.coordinate)]
+Seconds = Annotated[float, Field(ge=0, le=LIMITS.coordinate * 1e6)]
+Point = tuple[Coordinate, Coordinate]
+Revision = Annotated[int, Field(ge=0, le=10 * LIMITS.events)]
+Title = Annotated[str, Field(max_length=LIMITS.title), AfterValidator(_printable)]
+Number = Annotated[int, Field(ge=0, le=LIMITS.answers)]
 
 
 class Strict(BaseModel):

@@ -49,7 +49,7 @@ def serve_studio(plan: StudioPlan, announce: Callable[[str], object]) -> None:
 
     Raises:
         MissingDependencyError: If the extra ``studio`` is not installed.
-        InvalidInputError: If the address is not ours, or another studio uses the folder.
+        InvalidInputError: If the address is none of this machine, or another studio uses the folder.
     """
     with _listen(plan.host, plan.port) as listener:
         server, address = _make_server(plan, listener)
@@ -63,7 +63,7 @@ def running_studio(plan: StudioPlan) -> Iterator[str]:
 
     Raises:
         MissingDependencyError: If the extra ``studio`` is not installed.
-        InvalidInputError: If the address is not ours, or another studio uses the folder.
+        InvalidInputError: If the address is none of this machine, or another studio uses the folder.
     """
     with _listen(plan.host, plan.port) as listener:
         server, address = _make_server(plan, listener)

@@ -31,7 +31,7 @@ async def figure(
         tracks = [studio.store.read_track(session.name, n) if number == 7 else [] for n in range(len(answers))]
         return draw_figure(number, suffix, model, list(zip(answers, tracks, strict=True)))
 
-    lasting = number != 7  # the arm goes on while nobody edits
+    lasting = number != 7  # the arm goes on drawing at the same revision
     drawn = await studio.render((lambda: studio.figures.find_or_draw(key, draw)) if lasting else draw)
     return Response(drawn, media_type=MEDIA[suffix])
 
