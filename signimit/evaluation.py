@@ -19,7 +19,7 @@ from signimit.paths import (
 )
 from signimit.validation import finite_array, item_list, moving_points
 
-TOLERANCE = 0.35  # path error up to which a path counts as a movement, in half sizes of what was shown
+TOLERANCE = 0.35  # misfit up to which a path counts as a movement, in half sizes of what was shown
 SETTLED = 2 / 3  # the last share of a path that is judged: by then the reach is over
 LEAST_WAY = 0.2  # m; a hand that moved less has performed nothing
 _DIRECTION_WEIGHT = 0.25
@@ -33,7 +33,7 @@ class Performance(NamedTuple):
     Attributes:
         movement: Number of the movement, -1 for none of them.
         focus: Number of the object, -1 for none.
-        path_error: Misfit of the best candidate, in half sizes of the shown drawing: half of the mean gaps there and
+        misfit: Misfit of the best candidate, in half sizes of the shown drawing: half of the mean gaps there and
             back, plus a quarter of the mean of 1 - cos of the angle between directions. Infinite if the hand rested.
         coverage: Share of the shown drawing, in [0, 1], that the path came near to.
         turns: Signed revolutions of the whole path about the candidate object, counter-clockwise positive.
@@ -41,9 +41,14 @@ class Performance(NamedTuple):
 
     movement: int
     focus: int
-    path_error: float
+    misfit: float
     coverage: float
     turns: float
+
+    @property
+    def path_error(self) -> float:
+        """The misfit, by the name that it had in version 0.1.0."""
+        return self.misfit
 
 
 NOTHING = Performance(-1, -1, float("inf"), 0.0, 0.0)
@@ -119,10 +124,10 @@ def settled_part(path: NDArray[np.float64]) -> NDArray[np.float64] | None:
 
 def movement_error(tail: NDArray[np.float64], drawings: Sequence[Template]) -> float:
     """Return the misfit of a settled path, in the object's frame, to a movement: mean of its two best drawings."""
-    return float(np.mean(sorted(_path_error(tail, drawing) for drawing in drawings)[:2]))
+    return float(np.mean(sorted(_misfit(tail, drawing) for drawing in drawings)[:2]))
 
 
-def _path_error(tail: NDArray[np.float64], drawing: Template) -> float:
+def _misfit(tail: NDArray[np.float64], drawing: Template) -> float:
     there = nearest_points(tail, drawing.points)
     gap_there = np.hypot(*(tail - drawing.points[there]).T).mean()
     gap_back = nearest_distances(drawing.points, tail).mean()

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, count_turns, performed
-from signimit.evaluation import NOTHING, TOLERANCE, settled_part
+from signimit.evaluation import NOTHING, TOLERANCE, Performance, settled_part
 
 Array = NDArray[np.float64]
 OBJECTS = np.array([[-0.15, 0.0], [0.15, 0.05], [0.0, 0.15]])
@@ -39,7 +39,7 @@ def test_a_shown_drawing_about_an_object_is_told_from_all_others(movement: int, 
     path = np.tile(TEMPLATES[movement][0], (3, 1)) + OBJECTS[focus]
     found = performed(path, OBJECTS, TEMPLATES)
     assert (found.movement, found.focus) == (movement, focus)
-    assert found.path_error < 0.1
+    assert found.misfit < 0.1
     assert found.coverage == 1.0
 
 
@@ -81,7 +81,7 @@ def test_a_path_like_none_of_the_drawings_is_none_of_them() -> None:
     path = np.linspace([-0.3, -0.3], [0.3, 0.3], 100)
     found = performed(path, OBJECTS, TEMPLATES)
     assert (found.movement, found.focus) == (-1, -1)
-    assert TOLERANCE < found.path_error < np.inf
+    assert TOLERANCE < found.misfit < np.inf
 
 
 def test_half_a_drawing_covers_half_of_it() -> None:
@@ -92,13 +92,13 @@ def test_half_a_drawing_covers_half_of_it() -> None:
 def test_the_error_by_hand() -> None:
     # a circle of twice the radius, sampled alike: half a size off there and back, in the same direction
     found = performed(circle(3, 0.2), [[0.0, 0.0]], [[circle(1, 0.1)]])
-    assert found.path_error == pytest.approx((0.1 + 0.1) / (2 * 0.1), abs=0.02)
+    assert found.misfit == pytest.approx((0.1 + 0.1) / (2 * 0.1), abs=0.02)
 
 
 def test_a_movements_error_is_the_mean_of_its_two_best_drawings() -> None:
     path, objects = circle(3), [[0.0, 0.0]]
-    alone = [performed(path, objects, [[circle(1, r)]]).path_error for r in (0.1, 0.11, 0.2)]
-    together = performed(path, objects, [[circle(1, r) for r in (0.2, 0.1, 0.11)]]).path_error
+    alone = [performed(path, objects, [[circle(1, r)]]).misfit for r in (0.1, 0.11, 0.2)]
+    together = performed(path, objects, [[circle(1, r) for r in (0.2, 0.1, 0.11)]]).misfit
     assert together == pytest.approx((alone[0] + alone[1]) / 2)
 
 
@@ -162,3 +162,7 @@ def test_what_cannot_be_judged_is_told(arguments: Any, sentence: str) -> None:
     with pytest.raises(InvalidInputError) as caught:
         performed(*arguments)
     assert sentence in str(caught.value)
+
+
+def test_the_misfit_keeps_the_name_of_version_0_1_0() -> None:
+    assert Performance(0, 1, 0.25, 1.0, 2.0).path_error == 0.25

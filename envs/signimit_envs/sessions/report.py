@@ -19,7 +19,7 @@ from signimit.teaching.sessions import Session
 from signimit_envs.sessions.scores import algorithm_reading, failing_stage, obeyed_shares, restart_grouping
 from signimit_envs.sessions.session import Reproduction, SessionResult
 
-FORMAT = 1
+FORMAT = 2  # 1 called the misfit path_error
 PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
 
 
@@ -50,7 +50,7 @@ def session_report(result: SessionResult, people: People[Strokes]) -> dict[str, 
 
 def session_table(result: SessionResult) -> str:
     """Say in a table how each pair of signs was obeyed."""
-    lines = ["movement       about  shown   obeyed  path error  coverage  turns"]
+    lines = ["movement       about  shown   obeyed      misfit  coverage  turns"]
     for request in result.plan.language.requests:
         lines.append(_row(request, result))
     for name, share in obeyed_shares(result).items():
@@ -104,7 +104,7 @@ def _reproduction_entry(result: SessionResult, reproduction: Reproduction) -> di
         "failing stage": failing_stage(result, reproduction),
         "movement": performance.movement,
         "focus": performance.focus,
-        "path_error": _finite(performance.path_error),
+        "misfit": _finite(performance.misfit),
         "coverage": performance.coverage,
         "turns": performance.turns,
         "confidence": reproduction.answer.confidence,

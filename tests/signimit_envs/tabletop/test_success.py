@@ -86,5 +86,5 @@ def test_an_obeyed_request_is_rewarded_once_and_does_not_end_the_episode() -> No
     assert sum(rewards) == 1.0
     performance = info["performance"]
     assert (performance.movement, performance.focus) == (2, 0)
-    assert performance.path_error <= 0.35
+    assert performance.misfit <= 0.35
     env.close()

@@ -74,7 +74,7 @@ def test_the_path_follows_an_object_that_is_dragged_away(
     np.testing.assert_allclose(arm.state.objects, moved)
     performance = si.performed(_path(arm, 450), moved, [loops])
     assert (performance.movement, performance.focus) == (0, 2)
-    assert performance.path_error < 0.2
+    assert performance.misfit < 0.2
 
 
 def test_a_shoved_hand_leaves_its_path_and_comes_back(
