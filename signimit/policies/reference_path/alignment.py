@@ -1,4 +1,4 @@
-"""Where in a movement each point of a demonstration is: dynamic programming over phases.
+"""Alignment of demonstrations with a reference path: the phase of each point, by dynamic programming.
 
 A course is a polyline of M nodes, closed (the movement repeats) or open (it ends at a goal). A demonstration is
 read as a *reach* that follows no course, then a *drawing* whose phase moves along the nodes, round and round if the

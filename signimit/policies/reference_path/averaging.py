@@ -1,4 +1,4 @@
-"""The mean of many passes over one course, in position and in time.
+"""Mean of many passes over one reference path, in position and in time.
 
 DTW barycentre averaging (Petitjean et al. 2011, doi:10.1016/j.patcog.2010.09.013) for courses that repeat: aligned
 points are averaged node by node, so corners meet corners and stay sharp. A pass that is unlike the others counts less.

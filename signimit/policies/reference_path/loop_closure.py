@@ -1,9 +1,9 @@
-"""The seam of a movement that repeats: where one round ends and the next begins.
+"""Closure of a reference path that repeats: the jump from one drawn round to the next is replaced.
 
-A drawn round does not close: the stroke runs past its beginning, or stops short of it, and the hand jumps over to the
-next round. Nobody means that jump, but everybody makes it at the same place, so a mean of rounds has it too: a notch
-in a circle, a second tip beside a triangle's. It is known by turning that is undone at once, left and right
-again; a corner, however sharp, turns one way only.
+A drawn round does not close: the stroke runs past its beginning, or stops short of it, and the hand jumps to the next
+round. The jump is not meant, but is made at the same place every time, so a mean of rounds has it too: a notch in a
+circle, a second tip beside a triangle's. It is known by turning that is undone at once, left and right again; a
+corner, however sharp, turns one way only.
 """
 
 from __future__ import annotations
