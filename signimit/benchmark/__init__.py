@@ -1,8 +1,8 @@
-"""The benchmark: instructions are unlabelled motion, and what counts is what the hand does.
+"""The public benchmark: learners watch demonstrations, are given commands in signs, and are scored by how a hand moves.
 
-`signimit.benchmark.studies` compares ways of inferring on the same sessions, from inside. This is the public protocol:
-anything with three methods (`Entry`) watches the demonstrations of a session, is asked for something by signs, and
-moves a hand at 50 Hz. Splits are named, frozen and shipped, and each is the paper's session with one thing changed.
+Anything with three methods (`Entry`) can take part; it moves the hand at 50 Hz. The sessions of each split are fixed
+and shipped; each split is the paper's session with one thing changed. `signimit.benchmark.studies` compares ways of
+inferring from inside, and builds on this package.
 
 Entering, splits, scores and scale: docs/benchmark.md. Command: `benchmark`.
 """

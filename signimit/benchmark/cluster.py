@@ -1,4 +1,4 @@
-"""The engine that sends sessions to a dask.distributed cluster (extra ``dask``)."""
+"""Engine for a dask.distributed cluster (extra ``dask``)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TIMEOUT = 10  # s, after which a scheduler that does not answer is given up
 
 
 def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Engine:
-    """Make the engine that sends sessions to a cluster that is there already.
+    """Make an engine that sends sessions to a running cluster.
 
     What a lost worker was at goes to another one; a batch that three workers died of ends the run.
 
@@ -32,7 +32,7 @@ def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Eng
         timeout: How long to wait for scheduler and workers, s.
 
     Raises:
-        InvalidInputError: While the engine runs: if no scheduler answers, nobody works for it, or not with this code.
+        InvalidInputError: While the engine runs: if no scheduler answers, it has no workers, or they run other code.
     """
     check_counts(batch=batch)
 
@@ -67,7 +67,7 @@ def _result(future: Any, scheduler: str) -> list[Record]:
 def _client(scheduler: str, timeout: float) -> Iterator[Any]:
     try:
         client = distributed.Client(scheduler, timeout=timeout, set_as_default=False)
-    except (OSError, ValueError) as error:  # nobody there, or not an address
+    except (OSError, ValueError) as error:  # no scheduler there, or not an address
         found = f"none ({type(error).__name__})"
         raise InvalidInputError(f"scheduler {scheduler}", "a dask scheduler that answers", found) from None
     try:
@@ -77,7 +77,7 @@ def _client(scheduler: str, timeout: float) -> Iterator[Any]:
 
 
 def _check_workers(client: Any, scheduler: str, timeout: float) -> None:
-    """See that there are workers, and that they run the same code as we do."""
+    """Check that there are workers, and that they run the same code as this process."""
     try:
         client.wait_for_workers(1, timeout=timeout)
         hashes = client.run(code_hash)

@@ -1,4 +1,4 @@
-"""What enters the benchmark: three methods, and what is handed to them.
+"""The interface of benchmark entries: a protocol of three methods, and the records that are passed to them.
 
 An `Entry` sees a `DemonstrationSet`, signs, objects and a hand, nothing else. What was meant reaches only an `Oracle`,
 whose maker takes it as an argument of its own.
@@ -19,7 +19,7 @@ from signimit.teaching.languages import Request
 
 
 class Observation(NamedTuple):
-    """What an entry sees at a control step.
+    """Input of an entry at a control step.
 
     Attributes:
         hand: Where its hand is, shape (2,), m, table frame.
@@ -47,7 +47,7 @@ class Entry(Protocol):
         ...
 
     def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:
-        """Be asked for something.
+        """Receive a command.
 
         Args:
             signs: The W signs in the order they were made, each of shape (T_s, 2), any unit.
@@ -61,7 +61,7 @@ class Entry(Protocol):
 
 
 class Kit(NamedTuple):
-    """What the maker of an entry gets for a session.
+    """Arguments of the maker of an entry for a session.
 
     Attributes:
         prototypes: Signs of the session's signer that span the paper's sign space, each (T_s, 2); they mean nothing.
@@ -73,7 +73,7 @@ class Kit(NamedTuple):
 
 
 class Truth(NamedTuple):
-    """What was meant. For judges and oracles.
+    """Ground truth of a session, for judges and oracles.
 
     Attributes:
         shown: Movements and foci of the demonstrations, the language, and the drawings to judge by.
@@ -86,7 +86,7 @@ class Truth(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Entrant:
-    """A row of the table: how an entry is made for a session.
+    """A named entry of the leaderboard: how it is made for a session.
 
     Attributes:
         name: Short, also the name of its file of results.
@@ -103,7 +103,7 @@ class Entrant:
 
 @dataclass(frozen=True, kw_only=True)
 class Oracle:
-    """A row that is told what no learner is told, to show what a stage costs.
+    """A named entry that is told the ground truth, to show what a stage costs.
 
     Attributes:
         name: Short, also the name of its file of results.

@@ -1,4 +1,4 @@
-"""Files of results: a line of JSON for each session, and a summary of all of them.
+"""Result files: a line of JSON for each session, and a summary of all of them.
 
 A killed run goes on where it stopped. Results of other code, other sessions or another entry are never mixed: they are
 refused in one sentence, and left as they are.
@@ -32,7 +32,7 @@ Summary = dict[str, Any]
 
 
 class ResultFile(NamedTuple):
-    """Where the results of an entrant are.
+    """The result files of an entrant.
 
     Attributes:
         folder: Folder of all results.
@@ -44,17 +44,17 @@ class ResultFile(NamedTuple):
 
     @property
     def records(self) -> Path:
-        """A line for each session."""
+        """Path of the records, a line for each session."""
         return self.folder / f"{self.entrant.slug}.jsonl"
 
     @property
     def summary(self) -> Path:
-        """What the table is made of."""
+        """Path of the summary, which the tables are made of."""
         return self.folder / f"{self.entrant.slug}.json"
 
     @property
     def header(self) -> Record:
-        """What must not change from one run to the next."""
+        """First line of the records: what must not change from one run to the next."""
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -87,7 +87,7 @@ class ResultFile(NamedTuple):
         return sorted(unique.values(), key=lambda r: (order.index(r["split"]), r["seed"]))
 
     def append(self, record: Record) -> None:
-        """Add the record of a session."""
+        """Append the record of a session."""
         append_record(self.records, record)
 
 
@@ -111,7 +111,7 @@ def run_missing(file: ResultFile, splits: Sequence[str], seeds: Iterable[int], e
 
 
 def summarise(file: ResultFile) -> Summary:
-    """Count everything that is in a file, with the facts that made it."""
+    """Summarise the records of a file, with the facts that made it."""
     entrant, records = get_entrant(file.entrant), file.read()
     splits = {}
     for name in SPLITS:
@@ -151,7 +151,7 @@ def _summarise_split(name: str, records: Sequence[Record]) -> dict[str, Any]:
 
 
 def records_digest(records: Iterable[Record]) -> str:
-    """Return the SHA-256 of what was found, in the order of `ResultFile.read`: not how long it took, nor the code."""
+    """Return the SHA-256 of records in the order of `ResultFile.read`, without durations and the code's hash."""
     sha = hashlib.sha256()
     for record in records:
         lasting = {key: value for key, value in record.items() if key not in ("seconds", "code")}
@@ -160,7 +160,7 @@ def records_digest(records: Iterable[Record]) -> str:
 
 
 def _ranges(seeds: Sequence[int]) -> list[list[int]]:
-    """Say which seeds there are, as first and last of each run of consecutive ones."""
+    """Return seeds as ranges: first and last of each run of consecutive ones."""
     ranges: list[list[int]] = []
     for seed in sorted(seeds):
         if ranges and seed == ranges[-1][1] + 1:

@@ -1,4 +1,4 @@
-"""Running sessions: one from beginning to end, and many on the processors of this machine.
+"""Execution of benchmark sessions: one from beginning to end, and many on the processors of this machine.
 
 An engine takes tasks and yields their records as they end, in any order. Every session depends on its task alone, so
 that all engines give the same records.
@@ -42,7 +42,7 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class Task(NamedTuple):
-    """A session to run: enough to run it anywhere.
+    """A session to run, in a form that any process on any machine can run.
 
     Attributes:
         entrant: The entry that takes part.
@@ -99,7 +99,7 @@ def run_task(task: Task) -> Record:
 
 @contextmanager
 def _blaming(where: str) -> Iterator[None]:
-    """Say where an entry failed: in our sentence, or beside the traceback of a mistake of its own."""
+    """Name entry and session in whatever an entry raises: in the sentence of bad input, or as a note."""
     try:
         yield
     except InvalidInputError as error:
@@ -123,7 +123,7 @@ def _score_commands(
     templates: Sequence[Sequence[NDArray[np.float64]]],
     understanding: Understanding | None,
 ) -> dict[str, list[Any]]:
-    """Let the entry obey all commands, and judge what it did."""
+    """Score what an entry does for each command."""
     obeyed, misfit, read = [], [], []
     for command in session.commands:
         done = score_path(obey(entry, command), command, templates)

@@ -1,4 +1,4 @@
-"""Scores of one session: what was inferred, what was read and what was done, compared with what was meant."""
+"""Scores of one session: inferences, readings of signs and hand paths against the ground truth."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ WORST = 1.0  # half sizes; a larger misfit, or a hand that rested, counts as thi
 
 
 class Inferences(Protocol):
-    """What a method inferred from demonstrations: an `ImitationModel`, or an `Understanding`."""
+    """Inferences from demonstrations: of an `ImitationModel`, or an `Understanding`."""
 
     @property
     def labels(self) -> NDArray[np.int64]:
@@ -39,7 +39,7 @@ class Inferences(Protocol):
 
 
 class InferenceVerdict(NamedTuple):
-    """Whether what was inferred is true.
+    """Verdicts on inferences from demonstrations.
 
     Attributes:
         grouping: Demonstrations of one movement, and only they, are in one group.
@@ -62,7 +62,7 @@ class InferenceVerdict(NamedTuple):
 
 
 def judge_inference(inferred: Inferences, truth: GroundTruth) -> InferenceVerdict:
-    """Compare what was inferred from demonstrations with what they were."""
+    """Compare inferences with the ground truth."""
     foci = Share.of(np.asarray(inferred.focus) == truth.focus)
     order = tuple(inferred.word_order) == (truth.language.focus_word, truth.language.movement_word)
     return InferenceVerdict(
@@ -75,13 +75,13 @@ def judge_inference(inferred: Inferences, truth: GroundTruth) -> InferenceVerdic
 
 
 def same_partition(labels: ArrayLike, others: ArrayLike) -> bool:
-    """Tell whether two labellings, shape (N,) each, part the demonstrations in the same way."""
+    """Return whether two labellings, each of shape (N,), are the same partition."""
     a, b = np.asarray(labels).tolist(), np.asarray(others).tolist()
     return len(set(zip(a, b, strict=True))) == len(set(a)) == len(set(b))
 
 
 def adjusted_rand_index(found: ArrayLike, true: ArrayLike) -> float:
-    """Compare two groupings, each of shape (N,).
+    """Compute the adjusted Rand index of two groupings, each of shape (N,).
 
     Source: L. Hubert and P. Arabie, Journal of Classification 2, 1985 (doi:10.1007/BF01908075).
     """
@@ -111,7 +111,7 @@ def count_signs_read(reading: Reading, inferred: Inferences, truth: GroundTruth,
 
 
 class CommandScore(NamedTuple):
-    """What became of a command.
+    """Score of a command.
 
     Attributes:
         obeyed: Whether the hand did what was asked for.
@@ -125,7 +125,7 @@ class CommandScore(NamedTuple):
 def score_path(
     path: NDArray[np.float64], command: Command, templates: Sequence[Sequence[NDArray[np.float64]]]
 ) -> CommandScore:
-    """Say whether a hand did what a command asks for.
+    """Score the path of a hand by what a command asks for.
 
     Args:
         path: Where it was, shape (T, 2), m, table frame.

@@ -1,4 +1,4 @@
-"""The evaluation sessions that are shipped: twenty of each split, with a hash that results carry.
+"""The shipped evaluation sessions: twenty of each split, their file format, and the hash that results carry.
 
 In a file, sessions are arrays of whole numbers: small, and the same on every machine. Lengths are kept to 0.05 mm. A
 path is its first point, and the change of its step from sample to sample, which is small because hands move smoothly.

@@ -1,4 +1,4 @@
-"""The splits: each is the paper's session with one thing changed, and the same seed is the same people in all."""
+"""The splits of the benchmark: conditions that differ from the paper's in one thing; a seed means the same people."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _WHO, _HOW, _SHOWN, _ASKED, _MORE_HOW, _MORE_SHOWN = range(6)  # independent str
 
 
 def crowded_scene(rng: np.random.Generator, objects: int) -> NDArray[np.float64]:
-    """Draw a scene, and bring all objects nearer to their centre: at least 3.5 cm apart, in each other's drawings."""
+    """Draw a scene with objects at a quarter of the usual distances, at least 3.5 cm, within each other's drawings."""
     scene = sample_scene(rng, objects)
     centre = scene.mean(axis=0)
     return np.asarray(centre + CROWDED * (scene - centre))
@@ -188,7 +188,7 @@ def with_more_demonstrations(session: Session, count: int) -> Session:
 
 
 def entry_stream(session: Session) -> np.random.Generator:
-    """Return the generator of the entry that takes part in a session; what it was seeded with does not tell which."""
+    """Return the random generator of a session's entry; its seed does not tell which session it is."""
     name = f"{RECIPE} {session.seed} {session.condition.name}".encode()
     return np.random.default_rng(int.from_bytes(hashlib.sha256(name).digest()))
 

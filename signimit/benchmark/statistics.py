@@ -1,4 +1,4 @@
-"""Shares and means of scores with 95 % intervals; commands of one session share its luck, and the intervals know."""
+"""Shares and means of scores, with 95 % intervals that allow for clusters: commands of a session are dependent."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def estimate_stage(stage: str, records: Sequence[Record]) -> Estimate | None:
 
 
 def _session_scores(stage: str, record: Record) -> tuple[float, int]:
-    """Return the sum and the number of a session's scores."""
+    """Return the sum and the number of a session's scores of a stage."""
     if stage == "families":
         whole: dict[int, bool] = {}
         for family, obeyed in zip(record["families"], record["obeyed"], strict=True):
@@ -120,7 +120,7 @@ def _session_scores(stage: str, record: Record) -> tuple[float, int]:
 
 
 def estimate_share(sums: ArrayLike, counts: ArrayLike) -> Estimate:
-    """Estimate the mean of shares, or of what is right or wrong, that come in clusters.
+    """Estimate the mean of clustered scores in [0, 1]: shares, or verdicts that are 0 or 1.
 
     Wilson's interval, with as many independent scores as the spread between clusters leaves: p (1 - p) over the
     variance of the mean, but not fewer than clusters nor more than scores (E. L. Korn and B. I. Graubard, Survey
@@ -154,7 +154,7 @@ def estimate_misfit(sums: ArrayLike, counts: ArrayLike) -> Estimate:
 
 
 def _variance_of_mean(total: NDArray[np.float64], count: NDArray[np.float64]) -> float:
-    """Return the ratio estimator's variance of the mean; 0 of one cluster, of which nothing can be told."""
+    """Return the ratio estimator's variance of the mean; 0 of one cluster, which has none."""
     clusters, mean = len(total), total.sum() / count.sum()
     if clusters < 2:
         return 0.0

@@ -13,13 +13,13 @@ MANY = 10_000  # sessions whose cost is told
 
 
 def markdown_table(head: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
-    """Return a Markdown table: a head, and rows of as many cells."""
+    """Return a Markdown table of a head and rows of as many cells."""
     lines = [head, ["---"] * len(head), *rows]
     return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
 
 
 def ranked(summaries: Sequence[Summary]) -> list[Summary]:
-    """Sort: entries by the commands they obeyed, whoever met more splits first; oracles after them."""
+    """Sort summaries by the number of splits, then the share of commands obeyed; oracles come last."""
     return sorted(summaries, key=lambda s: (s["oracle"], -len(s["splits"]), -mean_obeyed(s), s["entry"]))
 
 
@@ -94,5 +94,5 @@ Demonstrations are a session's, on average. Hours are of two processors.
 
 
 def hours_for(sessions: int, seconds: float, processors: int = 2) -> float:
-    """Return how long so many sessions take, h, each so many seconds of one processor."""
+    """Return how long sessions take that each need so many seconds of one processor, h."""
     return sessions * seconds / processors / 3600

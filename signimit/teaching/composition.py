@@ -29,7 +29,7 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 
 @dataclass(frozen=True, eq=False)
 class GroundTruth:
-    """What was asked for in each demonstration. For evaluators, never for a learner.
+    """Ground truth of demonstrations: the requests and the drawings. For evaluators, never for a learner.
 
     Attributes:
         language: The language that was spoken.

@@ -9,7 +9,7 @@ from signimit.exceptions import InvalidInputError
 
 
 class Request(NamedTuple):
-    """What an utterance asks for.
+    """A request: what an utterance asks for.
 
     Attributes:
         movement: Index into `Language.movements`.

@@ -1,4 +1,4 @@
-"""Scenes on the table: where the objects lie, where a hand starts, and how it gets to where it wants to draw."""
+"""Scenes and hand paths on the table: object positions, starts of the hand, reaches and drawn strokes."""
 
 from __future__ import annotations
 

@@ -14,9 +14,10 @@ from signimit.benchmark.statistics import wilson_interval
 from signimit.benchmark.studies.asking import asking_conditions, run_lessons
 from signimit.benchmark.studies.conditions import Recordings, study_conditions
 from signimit.benchmark.studies.left_out_people import FoldRow, leave_people_out
-from signimit.benchmark.studies.running import OURS, Run, run_session, run_sessions
+from signimit.benchmark.studies.running import Run, run_session, run_sessions
 from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quizzes
 from signimit.benchmark.studies.tables import (
+    OURS,
     LessonRow,
     Row,
     beaten_cells,
@@ -59,7 +60,7 @@ def cells(
         workers: Processes; left out, one less than there are processors.
         out: Folder for what is written.
     """
-    from signimit.plots.studies import draw_cells
+    from signimit.plots.benchmark import draw_cells
 
     recordings = load_recordings(signs, movements)
     chosen = [condition for condition in study_conditions(recordings) if only in condition.name]
@@ -98,7 +99,7 @@ def asking(
         workers: Processes; left out, one less than there are processors.
         out: Folder for what is written.
     """
-    from signimit.plots.studies import draw_lessons
+    from signimit.plots.benchmark import draw_lessons
 
     recordings = load_recordings(signs, movements)
     chosen = [condition for condition in asking_conditions(recordings) if only in condition.name]
@@ -139,7 +140,7 @@ def calibration(*, out: Path = OUT) -> None:
     Args:
         out: Folder of these sessions, and for what is written.
     """
-    from signimit.plots.studies import draw_calibration
+    from signimit.plots.benchmark import draw_calibration
 
     records = read_records(out / "sessions.jsonl")
     if not records:

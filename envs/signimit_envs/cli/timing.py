@@ -124,7 +124,7 @@ def time_growth(*, counts: tuple[int, ...] = (12, 25, 50, 100, 200, 500, 1000), 
     """
     from signimit.benchmark.studies.scaling import Measurement, measure_growth
     from signimit.benchmark.studies.tables import write_csv
-    from signimit.plots.studies import draw_growth
+    from signimit.plots.benchmark import draw_growth
 
     rows = list(measure_growth(counts, LONGEST))
     text = "Time on the wall, of all processors, and memory above the start, each in a process of its own."

@@ -1,4 +1,4 @@
-"""Many sessions together: how often was the imitator right, and which step failed where it was not."""
+"""Scores of many sessions: shares of right inferences and obeyed commands, and the steps that failed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from signimit_envs.sessions.session import SessionResult
 
 
 class SessionOutcome(NamedTuple):
-    """What counts of one session.
+    """Scores of one session.
 
     Attributes:
         seed: Its seed.

@@ -1,4 +1,4 @@
-"""What there is to say about a session: as a table to read, and as an object for JSON."""
+"""Reports of a session: a table to read, and an object for JSON."""
 
 from __future__ import annotations
 

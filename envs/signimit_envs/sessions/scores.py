@@ -1,4 +1,4 @@
-"""Was the imitator right, and where it was not, which step went wrong first (paper, section III)."""
+"""Scores of sessions on the physics: commands obeyed, restarts of Algorithm 1, the first step that failed (III)."""
 
 from __future__ import annotations
 

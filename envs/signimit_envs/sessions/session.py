@@ -1,4 +1,4 @@
-"""A session as in the paper's section III: demonstrations, learning, and commands obeyed by the simulated arm."""
+"""Sessions on the physics: demonstrations, learning, and commands obeyed by the simulated arm (paper, section III)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from signimit_envs.tabletop_hand import TabletopHandEnv
 
 @dataclass(frozen=True, kw_only=True)
 class SessionPlan:
-    """What is done in a session.
+    """Plan of a session.
 
     Attributes:
         language: What is spoken.
@@ -68,7 +68,7 @@ Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 
 class Answer(NamedTuple):
-    """What the imitator did when it was asked for something.
+    """Answer to a command: what was understood, and how the arm moved.
 
     Attributes:
         movement: Number of the movement that it understood, in its own numbering.
@@ -86,7 +86,7 @@ class Answer(NamedTuple):
 
 
 class Reproduction(NamedTuple):
-    """A command, and what became of it.
+    """A command, the answer, and its performance.
 
     Attributes:
         command: The command.
@@ -106,7 +106,7 @@ class Reproduction(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SessionResult:
-    """Everything that happened in a session.
+    """Result of a session.
 
     Attributes:
         plan: What was done.

@@ -1,4 +1,4 @@
-"""Entries of the benchmark: ours by name, and anybody's by ``module:Class`` or ``file.py:Class``.
+"""The entries of the benchmark: those of this project by name, others by ``module:Class`` or ``file.py:Class``.
 
 What a learner needs that is not installed with signimit is imported when its entry is made.
 """
@@ -24,7 +24,7 @@ from signimit.benchmark.protocol import Entrant, Entry, Kit, Oracle
 from signimit.exceptions import InvalidInputError, UnknownNameError
 
 METHODS = ("observe", "begin", "act")
-MANY = 1200  # demonstrations for those who learn slowly
+MANY = 1200  # demonstrations of the entries that learn slowly
 
 
 def _perceptron(kit: Kit) -> Entry:
@@ -76,7 +76,7 @@ ENTRANTS: dict[str, Entrant | Oracle] = {entrant.name: entrant for entrant in _A
 
 
 class EntrantReference(NamedTuple):
-    """Names an entrant so that another process, on another machine, can make it.
+    """A name of an entrant by which any process on any machine can make it.
 
     Attributes:
         name: A registered name, or ``module:Class``, or the name of a file and a class.

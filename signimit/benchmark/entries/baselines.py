@@ -1,4 +1,4 @@
-"""Baselines that understand nothing: chance, and the replay of the demonstration with the nearest signs."""
+"""Baselines without inference: chance, and the replay of the demonstration with the nearest signs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Place = NDArray[np.float64]
 
 
 class Chance(Follower):
-    """Guesses everything, and moves well.
+    """Baseline at chance level: guesses groups, foci, word order and readings, and follows a good policy.
 
     It takes as many movements as objects for granted, for want of a better number. What it draws is a random
     demonstration of the group that it guesses, the middle of the drawing put on the object that it guesses.
@@ -57,15 +57,15 @@ class Chance(Follower):
 
 
 class Replay(Follower):
-    """Draws again, at the same place on the table, what was shown when the most similar utterance was made.
+    """Baseline that redraws, at the same place on the table, the demonstration with the most similar utterance.
 
     The likeness of two utterances is the sum of the dynamic time warping distances of their words. The path is replayed
     in the table frame because any other frame would be an object's, and to choose one is to guess the focus; velocities
-    replayed from wherever the hand happens to start would draw at random places. Objects have no part in it.
+    replayed from the start of the hand would draw at random places. Objects have no part in it.
     """
 
     def observe(self, demonstrations: DemonstrationSet) -> None:
-        """Remember everything."""
+        """Store the demonstrations and their normalised signs."""
         self._demonstrations = demonstrations
         words = range(len(demonstrations[0].signs))
         self._signs = [np.stack([normalised_sign(shown.signs[w]) for shown in demonstrations]) for w in words]
@@ -80,12 +80,12 @@ class Replay(Follower):
         self.follow(make_policy([shown.hand - there], [shown.times]).at(here))
 
     def _origins(self, shown: Demonstration, objects: NDArray[np.float64]) -> tuple[Place, Place]:
-        """Return what the path was relative to when it was shown, and what it shall be relative to now."""
+        """Return the origin of the path when it was shown, and its origin now, each (2,), m."""
         return np.zeros(2), np.zeros(2)
 
 
 class ReplayNearby(Replay):
-    """Draws what was shown when the most similar utterance was made, about the object that it was drawn nearest to.
+    """Baseline that redraws the demonstration with the most similar utterance about the object it was nearest to.
 
     It takes nearness for focus, and needs nothing else to obey a pair that was shown. It has no idea of words.
     """

@@ -1,4 +1,4 @@
-"""Behaviour cloning: what all of it learns from, and nearest neighbours.
+"""Behaviour cloning: its training samples, perceptron evaluation, and cloning by nearest neighbours.
 
 A trained perceptron is evaluated without the library that trained it: a single input takes a tenth of the time.
 """
@@ -26,7 +26,7 @@ Activation = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
 
 class Moments(NamedTuple):
-    """M moments of N demonstrations.
+    """Training samples: M moments of N demonstrations.
 
     Attributes:
         demonstration: Which demonstration each belongs to, shape (M,).
@@ -85,15 +85,15 @@ def perceptron_output(
 
 
 class NearestNeighbourCloning:
-    """Moves as the hand did in the 60 most similar moments, the more similar the more it counts.
+    """Behaviour cloning by 60 nearest neighbours, weighted by similarity.
 
     Moments are alike if the signs are and if the hand is at a like place relative to an object; every moment is
-    remembered once for each object, for nobody knows which of them mattered. That is the strongest of the variants
+    remembered once for each object, for it is not known which of them mattered. That is the strongest of the variants
     tried, see docs/benchmark_entries.md.
     """
 
     def observe(self, demonstrations: DemonstrationSet) -> None:
-        """Remember every moment."""
+        """Store every moment."""
         moments = collect_moments(demonstrations)
         self._demonstration = moments.demonstration
         self._relative = moments.hand[:, None] - demonstrations.objects[moments.demonstration]  # (M, O, 2)

@@ -36,7 +36,7 @@ OPENING = 1.0  # s after which the time tells no more: before, the hand reaches
 
 
 class SignConditionedNetwork(nn.Module):  # type: ignore[misc, unused-ignore]
-    """From the code of an utterance, the place of the hand and the time to a velocity.
+    """Network from the code of an utterance, the place of the hand and the time to a velocity.
 
     Each sign is encoded by the same two convolutions. With attention, the code chooses softly among the objects and the
     hand's place is seen from what it chose; without, from all objects at once.
@@ -118,7 +118,7 @@ def reproducible_torch(seed: int) -> Iterator[None]:
 
 
 class TrainingSet(NamedTuple):
-    """Demonstrations as tensors: N utterances and M moments.
+    """Training set as tensors: N utterances and M moments.
 
     Attributes:
         signs: Shape (N, W, 4, 32).
@@ -140,7 +140,7 @@ class TrainingSet(NamedTuple):
 class DeepCloning:
     """A network trained end to end from signs, objects, hand and time to velocity.
 
-    With attention it has a place for a focus, one object chosen by the signs, but nobody tells it which; without, it
+    With attention it has a place for a focus, one object chosen by the signs, which it is not told; without, it
     is the same network with the hand's place among all objects for input.
     """
 
@@ -149,7 +149,7 @@ class DeepCloning:
         self._rng, self._attention = kit.rng, attention
 
     def observe(self, demonstrations: DemonstrationSet) -> None:
-        """Train."""
+        """Train the network."""
         training = _training_set(demonstrations)
         words, objects = training.signs.shape[1], training.places.shape[1]
         with reproducible_torch(int(self._rng.integers(2**31))):
@@ -167,7 +167,7 @@ class DeepCloning:
         self._objects = objects
 
     def act(self, observation: Observation) -> ArrayLike:
-        """Ask the network."""
+        """Evaluate the network."""
         places = (observation.hand - self._objects) / NEAR
         seen = places.ravel() if self._weights is None else self._weights @ places
         time = min(observation.seconds / OPENING, 1.0)

@@ -1,4 +1,4 @@
-"""The learners of this project as entries: they infer what was meant, then follow the policy of what is asked for."""
+"""The learners of this project as entries: an `ImitationModel` and the policy that it answers with."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Follower:
 
 
 class Imitator(Follower):
-    """Obeys as an `ImitationModel` says.
+    """Entry that learns an `ImitationModel` and follows the policies of its responses.
 
     Attributes:
         understanding: What was inferred.
@@ -39,11 +39,11 @@ class Imitator(Follower):
     reading: Reading
 
     def __init__(self, understand: Callable[[DemonstrationSet], ImitationModel]) -> None:
-        """Take the way of understanding demonstrations."""
+        """Store the function that learns a model from demonstrations."""
         self._understand = understand
 
     def observe(self, demonstrations: DemonstrationSet) -> None:
-        """Understand the demonstrations."""
+        """Learn the model."""
         self._model = self._understand(demonstrations)
         self.understanding = self._model.understanding
 
@@ -55,12 +55,12 @@ class Imitator(Follower):
 
 
 def certain_reading(movement: int, focus: int, movements: int, objects: int) -> Reading:
-    """Return a reading that leaves no doubt."""
+    """Return a reading with all probability on one movement and one object."""
     return Reading(np.eye(movements)[movement], np.eye(objects)[focus])
 
 
 def learner_entrant(name: str, title: str, method: str, policy: str = DEFAULT_POLICY) -> Entrant:
-    """Enter `signimit.learn` with a method and a kind of policy."""
+    """Make the entrant of `signimit.learn` with a method and a kind of policy."""
 
     def make(kit: Kit) -> Imitator:
         return Imitator(lambda demonstrations: learn(demonstrations, kit.prototypes, method, policy, kit.rng))

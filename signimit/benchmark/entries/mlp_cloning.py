@@ -36,7 +36,7 @@ NEAR = 0.15  # m, brings places to the order of 1
 
 
 class PerceptronCloning:
-    """Two hidden layers of 128 units, from signs and the hand's place among all objects to its velocity.
+    """Perceptron with two hidden layers of 128, from signs and the hand's place among all objects to its velocity.
 
     Signs come in as principal components; inputs are standardised. Moments are also learned from hands a little astray
     that go back, so that errors do not grow (Laskey et al., DART, CoRL 2017). Neither the last velocity nor the time
@@ -48,7 +48,7 @@ class PerceptronCloning:
         self._rng = kit.rng
 
     def observe(self, demonstrations: DemonstrationSet) -> None:
-        """Train."""
+        """Train the perceptron."""
         signs = np.stack([utterance_features(words) for words in demonstrations.signs])
         self._mean_sign = signs.mean(axis=0)
         components = np.linalg.svd(signs - self._mean_sign, full_matrices=False)[2][:COMPONENTS].T
@@ -76,12 +76,12 @@ class PerceptronCloning:
         return _inputs(code, hand + astray, objects[which]), (velocity - PULL * astray) / SPEED
 
     def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:
-        """Look at signs and objects."""
+        """Encode the signs."""
         self._code = (utterance_features(signs) - self._mean_sign)[None] @ self._components
         self._objects = objects[None]
 
     def act(self, observation: Observation) -> ArrayLike:
-        """Ask the network."""
+        """Evaluate the perceptron."""
         inputs = _inputs(self._code, observation.hand[None], self._objects)[0]
         return SPEED * perceptron_output(self._layers, (inputs - self._mean) / self._scale, rectified)
 

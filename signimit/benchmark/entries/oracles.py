@@ -1,4 +1,4 @@
-"""Oracles: the paper's inference with some of its questions answered, to show what each costs."""
+"""Oracles: the paper's inference given a part of the ground truth, to show what each stage costs."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def _model(kit: Kit, demonstrations: DemonstrationSet, labels: Labels, focus: La
 
 
 class AllKnowing(Follower):
-    """Knows what was shown and what is asked for; only its policy can fail.
+    """Oracle that is told all of the ground truth, so that only its policy can fail.
 
     Attributes:
         understanding: The truth.

@@ -1,4 +1,4 @@
-"""Learners and baselines on the same sessions: cells, methods, records, tables. For the command `study`, not for users.
+"""Studies behind the command `study`: learners and baselines, policies, signs and confidences compared on equal terms.
 
 The baselines need scikit-learn (the extra ``study``), the figures matplotlib (``scripts``).
 """

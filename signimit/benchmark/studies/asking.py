@@ -1,4 +1,4 @@
-"""Lessons in which the imitator asks: how soon does it understand, by what it asks for."""
+"""Active learning: how many demonstrations it takes until commands are understood, by what the imitator asks for."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def asking_conditions(recordings: Recordings | None = None) -> list[Condition]:
 
 
 class Question(NamedTuple):
-    """What the interactant is asked to sign, and the scene to answer in, shape (O, 2), m."""
+    """A request that the interactant is asked to sign, and the scene to answer in, shape (O, 2), m."""
 
     request: Request
     objects: NDArray[np.float64]
@@ -46,7 +46,7 @@ Ask = Callable[["Lesson", ImitationModel, NDArray[np.float64]], Question]
 
 
 class Lesson:
-    """People, a language, and what was shown so far. Knows the truth; the imitator is asked by its model only."""
+    """An interactive session: people, a language, the demonstrations so far, and their ground truth."""
 
     def __init__(self, condition: Condition, seed: int) -> None:
         """Show every sign once; with odd seeds the movement is named first."""
@@ -75,7 +75,7 @@ class Lesson:
         return np.stack([sample_scene(self.rng, self.language.objects) for _ in range(count)])
 
     def show(self, question: Question) -> None:
-        """Let the people answer a question, and remember both."""
+        """Add the demonstration that a question asks for."""
         request, objects = question
         self.requests.append(request)
         self.demonstrations.append(self.people.demonstrate(request, self.rng, lambda rng, count: objects))
@@ -86,7 +86,7 @@ class Lesson:
         return Request(self.requests[movement].movement, self.requests[focus].focus)
 
     def accuracy(self, model: ImitationModel) -> float:
-        """Share of all pairs of signs, each signed anew, that the model understands."""
+        """Return the share of all pairs of signs, each signed anew, that a model understands."""
         means = [
             Counter(self.requests[t].movement for t in movement.members).most_common(1)[0][0]
             for movement in model.movements
@@ -102,7 +102,7 @@ def ask_at_random(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.floa
 
 
 def ask_the_least_shown(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.float64]) -> Question:
-    """Ask for a pair that, by the model, was shown least, in any scene: a balanced design without doubt."""
+    """Ask for the pair that, by the model, was shown least, in any scene: a balanced design."""
     shown = np.zeros((len(model.movements), scenes.shape[1]))
     np.add.at(shown, (model.labels, model.focus), 1.0)
     heard = np.unique(model.focus)

@@ -1,4 +1,4 @@
-"""The conditions that the study compares methods in: sizes, and what is not as it should be."""
+"""The conditions of the study: sizes of languages, and variants such as noise, fillers or unequal counts."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def compose_study_session(condition: Condition, seed: int) -> Session:
     """Compose a session; the same condition and seed give the same one.
 
     Raises:
-        InvalidInputError: If nobody recorded drew all that the language needs.
+        InvalidInputError: If no recorded person drew all that the language needs.
     """
     language = condition.language
     rng = np.random.default_rng([seed, len(language.movements), language.objects, language.repetitions])

@@ -30,7 +30,7 @@ _LEAST_SPREAD = 0.1
 
 
 class FoldRow(NamedTuple):
-    """One condition, of people left out.
+    """Results of one condition with people left out.
 
     Attributes:
         mover: Who was left out of those who move; a share of the signers is left out beside.

@@ -30,10 +30,10 @@ Table = NDArray[np.float64]
 
 
 class SharedDistances:
-    """A session with the distances that its methods share, each computed when first asked for."""
+    """The distances of a session that several methods share, each computed when first used."""
 
     def __init__(self, session: Session, seed: int) -> None:
-        """Keep the session; the seed is for methods that draw at random."""
+        """Store the session, and the seed of methods that draw at random."""
         self.session, self.seed = session, seed
 
     @cached_property
@@ -117,7 +117,7 @@ def _distances(gamma: Table) -> Table:
 
 
 def _noise_alone(labels: NDArray[np.integer]) -> Labels:
-    """Give everyone without a group, -1, one of their own."""
+    """Give each demonstration without a group, -1, a group of its own."""
     alone = labels < 0
     return np.where(alone, labels.max() + 1 + np.cumsum(alone), labels).astype(np.int64)
 

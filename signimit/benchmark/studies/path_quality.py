@@ -1,4 +1,4 @@
-"""How well a policy draws what was shown: the measures of the study of all kinds."""
+"""Measures of how well a policy draws what was shown."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CORNER_POINTS = 10  # farthest-out of 200 points of a loop
 
 
 class PathQuality(NamedTuple):
-    """One hand's path, judged; NaN where a measure does not apply.
+    """Measures of one hand's path; NaN where a measure does not apply.
 
     Attributes:
         misfit: Path error of `signimit.evaluation`, in half sizes.

@@ -29,7 +29,7 @@ STAY = 0.02  # m from the object within which a reach has arrived
 
 @dataclass(frozen=True, kw_only=True)
 class StudyPlan:
-    """What is measured.
+    """Plan of the comparison.
 
     Attributes:
         labels: Movements to demonstrate; those of `GOAL_LABELS` end at the object.
@@ -75,7 +75,7 @@ class ShownMovement(NamedTuple):
 
 
 class Trial(NamedTuple):
-    """What one kind of policy did in one lesson; a share or a mean over hands, NaN where it does not apply."""
+    """Measures of one kind of policy on one shown movement: shares or means over hands, NaN where they do not apply."""
 
     kind: str
     label: str
@@ -154,7 +154,7 @@ def _mean(values: Iterable[float]) -> float:
 
 
 class Summary(NamedTuple):
-    """One kind over all lessons: shares are means; the others medians, with the 95th percentile in brackets."""
+    """Measures of one kind over all trials: shares are means, the others medians, with the 95th percentile."""
 
     kind: str
     measures: dict[str, tuple[float, float]]

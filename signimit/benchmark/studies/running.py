@@ -1,4 +1,4 @@
-"""Sessions of the study on all processors, a line of results each."""
+"""Execution of the study: a record of each session, on all processors."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from pathlib import Path
 from signimit.benchmark.scoring import InferenceVerdict, judge_inference
 from signimit.benchmark.studies.conditions import compose_study_session
 from signimit.benchmark.studies.methods import BASELINES, SharedDistances, infer
+from signimit.benchmark.studies.tables import OURS
 from signimit.io.safe_files import Record, append_record, read_records
 from signimit.learning import ImitationModel, learn
 from signimit.teaching.sessions import Condition, Session
 
-OURS = "joint"
 Run = Callable[[Condition, int], Record]  # a session of a condition, by its seed; a function of a module
 _conditions: dict[
     str, Condition
@@ -49,7 +49,7 @@ def _run(run: Run, name: str, seed: int) -> Record:
 
 
 def run_session(condition: Condition, seed: int) -> Record:
-    """Let every method infer from one session, and ask ours for every pair."""
+    """Score every method on one session, and the confidences of ours on every pair."""
     session = compose_study_session(condition, seed)
     distances = SharedDistances(session, seed)
     verdicts = {m: _three_verdicts(judge_inference(infer(distances, m), session.truth)) for m in BASELINES}

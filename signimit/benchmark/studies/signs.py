@@ -1,4 +1,4 @@
-"""Signs alone: how often the next one is read rightly after a few examples of each, by three distances."""
+"""Few-shot sign classification: how often a new sign is read right after a few examples of each, by three distances."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Points = Sequence[NDArray[np.float64]]
 
 
 class Quiz(NamedTuple):
-    """A kind of quiz.
+    """A classification task.
 
     Attributes:
         signs: Which are to be told apart.
@@ -39,7 +39,7 @@ class Quiz(NamedTuple):
 
 
 class SignRow(NamedTuple):
-    """How often a sign that was never shown was read rightly, with Wilson's 95 % interval."""
+    """Number of signs never shown that were read right, with Wilson's 95 % interval."""
 
     people: str
     signs: str

@@ -1,7 +1,4 @@
-"""Synthetic people and what they draw.
-
-Nobody real made these strokes; they are called synthetic wherever they appear.
-"""
+"""Synthetic people and what they draw; their strokes are called synthetic wherever they appear."""
 
 from signimit.teaching.people.glyphs import GOAL_LABELS as GOAL_LABELS
 from signimit.teaching.people.glyphs import MOVEMENT_LABELS as MOVEMENT_LABELS

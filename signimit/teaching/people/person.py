@@ -1,4 +1,4 @@
-"""Synthetic people: each draws everything in a style of their own, and nothing twice the same way."""
+"""Synthetic people: each has a style of drawing, and draws nothing twice the same way."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CORNER = np.radians(50.0)  # a junction that turns by more is drawn as a corner
 
 @dataclass(frozen=True, kw_only=True)
 class Style:
-    """How somebody draws. Lengths are in half sizes of the drawing.
+    """Drawing style of a person. Lengths are in half sizes of the drawing.
 
     Attributes:
         size: Size of drawings, 1 is average.
@@ -75,7 +75,7 @@ class Style:
 
 @dataclass(frozen=True, eq=False)
 class Person:
-    """Somebody with a style and with habits.
+    """A synthetic person: a drawing style and habits.
 
     Attributes:
         style: The style.

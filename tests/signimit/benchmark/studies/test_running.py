@@ -9,8 +9,8 @@ import pytest
 pytest.importorskip("sklearn", reason="the study needs scikit-learn")
 
 from signimit.benchmark.studies.conditions import compose_study_session, study_condition
-from signimit.benchmark.studies.running import OURS, ask_with_confidence, run_session, run_sessions
-from signimit.benchmark.studies.tables import beaten_cells, calibrate, shares_table, tabulate
+from signimit.benchmark.studies.running import ask_with_confidence, run_session, run_sessions
+from signimit.benchmark.studies.tables import OURS, beaten_cells, calibrate, shares_table, tabulate
 from signimit.io.safe_files import append_record, read_records
 from signimit.learning import learn
 
