@@ -11,7 +11,7 @@ import pytest
 
 import signimit as si
 
-pytest.importorskip("matplotlib")
+pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
 from signimit.plots import paper as figures  # needs matplotlib
 
 LABELS = np.array([1, 0, 1, 0])

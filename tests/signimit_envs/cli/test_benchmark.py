@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-pytest.importorskip("tyro")
-pytest.importorskip("tqdm")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
+pytest.importorskip("tqdm", reason="commands need signimit[scripts]")
 
 STILL = """
 class Still:
@@ -27,7 +27,7 @@ def test_an_entry_of_ones_own_runs_and_gets_a_line_and_a_panel(run: Any, tmp_pat
     assert "s of a processor; 10000 take " in said
     run("benchmark", "table", "--out", out)
     assert "| still.py:Still | 2 | 0.00 [0.00, 0.18] | 1.00 [1.00, 1.00] |" in (out / "README.md").read_text()
-    pytest.importorskip("matplotlib")
+    pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
     run("benchmark", "plot", "--out", out)
     assert (out / "obeyed.png").read_bytes().startswith(b"\x89PNG")
     summary = json.loads((out / "still.py-Still.json").read_text())

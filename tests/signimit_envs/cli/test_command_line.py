@@ -13,7 +13,7 @@ import pytest
 from signimit.exceptions import InvalidInputError
 from signimit_envs.cli.command_line import PIPE_CLOSED, call_with_options, command_text, exit_codes
 
-pytest.importorskip("tyro")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
 
 
 def complaint(command: Callable[[], None], capsys: pytest.CaptureFixture[str]) -> str:

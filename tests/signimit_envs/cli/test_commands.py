@@ -12,7 +12,7 @@ import pytest
 import signimit_envs.cli
 from signimit_envs.cli import COMMANDS, main
 
-pytest.importorskip("tyro")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
 
 
 def test_every_module_is_a_command() -> None:

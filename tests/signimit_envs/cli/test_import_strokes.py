@@ -5,6 +5,8 @@ from typing import Any
 
 import pytest
 
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
+
 from signimit import StrokeLibrary
 from signimit.io.formats import read_inkml
 

@@ -13,7 +13,7 @@ from signimit_envs.cli import main
 from signimit_envs.recording import load_recording, save_recording
 from signimit_envs.recording.episodes import Recording
 
-pytest.importorskip("tyro")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
 
 
 @pytest.fixture(scope="module")

@@ -12,9 +12,9 @@ import pytest
 import signimit as si
 from signimit_envs.exceptions import RenderingError
 
-pytest.importorskip("tyro")
-pytest.importorskip("tqdm")
-pytest.importorskip("matplotlib")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
+pytest.importorskip("tqdm", reason="commands need signimit[scripts]")
+pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
 
 
 def test_demonstrations_that_are_made_can_be_learned_from(run: Any, demonstrations: Path, tmp_path: Path) -> None:

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-pytest.importorskip("tyro")
-pytest.importorskip("matplotlib")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
+pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
 
 
 def test_the_study_writes_table_trials_facts_and_a_picture_of_each_kind(run: Any, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from signimit_envs.studio import load
 from signimit_envs.timing import core, environments, throughput
 from signimit_envs.timing.measuring import Timing
 
-pytest.importorskip("tyro")
+pytest.importorskip("tyro", reason="commands need signimit[scripts]")
 
 
 def read_result(folder: Path, name: str, said: str) -> Any:
@@ -66,7 +66,7 @@ def test_many_reproductions(run: Any, tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def test_growth(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("matplotlib")
+    pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
     rows = [Measurement(3, step, code, 0.2, 0.1, 0.5) for step in STEPS for code in CODES]
     monkeypatch.setattr("signimit.benchmark.studies.scaling.measure_growth", lambda *_: iter(rows))
     facts = read_result(tmp_path, "scaling", run("timing", "growth", "--counts", 3, "--out", tmp_path))

@@ -81,7 +81,7 @@ def test_a_plan_for_nothing_is_refused(name: str) -> None:
 def test_what_cannot_be_trained_is_refused_and_leaves_nothing(
     run: Any, option: str, message: str, tmp_path: Path
 ) -> None:
-    pytest.importorskip("tyro")
+    pytest.importorskip("tyro", reason="commands need signimit[scripts]")
     pytest.importorskip("stable_baselines3", reason="stable-baselines3 is not installed")
     assert run.refusal("train", option, "--out", tmp_path / "out").startswith(message)
     assert list(tmp_path.iterdir()) == []
