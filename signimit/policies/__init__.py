@@ -27,13 +27,14 @@ from signimit.policies.base import CONTROL_PERIOD as CONTROL_PERIOD
 from signimit.policies.base import PlacedPolicy as PlacedPolicy
 from signimit.policies.base import Policy as Policy
 from signimit.policies.base import as_policy as as_policy
-from signimit.policies.base import check_demonstrations, read_policy_arrays
+from signimit.policies.base import check_demonstrations
 from signimit.policies.closed_loop import run_policy as run_policy
 from signimit.policies.dmp import DMPPolicy as DMPPolicy
 from signimit.policies.gmr import GMRPolicy as GMRPolicy
 from signimit.policies.ilo_gmr import ILOGMRPolicy as ILOGMRPolicy
 from signimit.policies.knn import KNearestPolicy as KNearestPolicy
 from signimit.policies.path_following import PathFollowingPolicy as PathFollowingPolicy
+from signimit.policies.storage import read_policy_arrays
 
 _CLASSES = {cls.kind: cls for cls in (PathFollowingPolicy, KNearestPolicy, ILOGMRPolicy, GMRPolicy, DMPPolicy)}
 POLICY_KINDS = tuple(_CLASSES)

@@ -1,7 +1,7 @@
 """The policy: a control law from where a hand is to how it moves (paper, section II-E).
 
-One abstract class, `Policy`; one file format for all kinds, `StoredPolicy`; the frame of an object put on the table,
-`PlacedPolicy`; and what every kind does first, to look at demonstrations and hands.
+One abstract class, `Policy`; a policy about a place on the table, `PlacedPolicy`; and what every kind does first, to
+check demonstrations and hands.
 """
 
 from __future__ import annotations
@@ -10,21 +10,18 @@ import dataclasses
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Self, get_type_hints
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.io.archive import read_archive, write_archive
+from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke
 
 CONTROL_PERIOD = 0.02  # s, of every closed loop of this project, simulated arm or not: 50 Hz
 FARTHEST = 1e3  # m; no table is wider, and squares of anything below stay finite
 
 Array = NDArray[np.float64]
-_FILE_KIND, _FILE_VERSION = "policy", 2
-RMS_RADIUS = 0.8  # half sizes; of 13 movements of built-in people 0.74 in the median, of 7 of real people 0.83
 
 
 class Policy(ABC):
@@ -160,88 +157,6 @@ def as_policy(moves: Policy | Callable[[Array], ArrayLike]) -> Policy:
     if not callable(moves) and not hasattr(moves, "step"):
         raise InvalidInputError("policy", "a policy", type(moves).__name__)
     return _CallerPolicy(moves)
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class StoredPolicy(Policy):
-    """A policy whose init fields are its file: those annotated ``float`` or ``int`` are numbers, all others arrays.
-
-    A field with a default may be missing in a file: it was written before the field was there.
-    """
-
-    kind: ClassVar[str]
-
-    @classmethod
-    def _stored_types(cls) -> dict[str, type]:
-        hints = get_type_hints(cls)
-        return {field.name: hints[field.name] for field in dataclasses.fields(cls) if field.init}
-
-    def __post_init__(self) -> None:
-        """Make the arrays read-only copies and refuse what is not finite.
-
-        Raises:
-            InvalidInputError: If a field is or holds something that is not a finite number, or a count is not whole.
-        """
-        for name, hint in self._stored_types().items():
-            value = frozen(getattr(self, name))
-            if not np.isfinite(value).all() or not value.size:
-                raise InvalidInputError(f"policy: {name}", "finite numbers", "others, or none")
-            if hint is int and not (value.ndim == 0 and value >= 1 and value % 1 == 0):
-                raise InvalidInputError(f"policy: {name}", "a whole number, 1 or more", f"{getattr(self, name)!r}")
-            object.__setattr__(self, name, value if hint not in (float, int) else hint(value))
-
-    def _stored_arrays(self) -> dict[str, Array]:
-        return {name: np.asarray(getattr(self, name)) for name in self._stored_types()}
-
-    def __repr__(self) -> str:
-        """Name the fields, arrays by their shapes: a policy is printed with every response."""
-        default = {field.name: field.default for field in dataclasses.fields(self)}
-        values = ((name, v) for name, v in self._stored_arrays().items() if v.ndim or v != default[name])
-        shown = (f"{name}=<{'x'.join(map(str, v.shape))}>" if v.ndim else f"{name}={v:.4g}" for name, v in values)
-        return f"{type(self).__name__}({', '.join(shown)})"
-
-    def __reduce__(self) -> tuple[type[Self], tuple[Any, ...]]:
-        """Pickle the stored fields only; a copy is made and checked anew, its arrays read-only again."""
-        return type(self), tuple(getattr(self, name) for name in self._stored_types())
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the policy to a file that `load_policy` reads; whole or not at all."""
-        write_archive(path, _FILE_KIND, _FILE_VERSION, self._stored_arrays(), {"policy": self.kind})
-
-    @classmethod
-    def from_arrays(cls, arrays: dict[str, Array], where: str) -> Self:
-        """Build the policy from what `save` wrote.
-
-        Raises:
-            FileFormatError: If a field is missing, of another shape, or not finite.
-        """
-        types = cls._stored_types()
-        needed = {f.name for f in dataclasses.fields(cls) if f.init and f.default is dataclasses.MISSING}
-        missing = [name for name in types if name in needed and name not in arrays]
-        if missing:
-            raise FileFormatError(where, f"arrays {', '.join(types)}", f"no {missing[0]}")
-        try:
-            there = {name: hint for name, hint in types.items() if name in arrays}
-            return cls(
-                **{name: arrays[name].item() if t in (float, int) else arrays[name] for name, t in there.items()}
-            )
-        except (TypeError, ValueError, IndexError) as error:
-            raise FileFormatError(where, f"the arrays of a {cls.kind} policy", str(error)) from None
-
-
-def read_policy_arrays(path: str | os.PathLike[str]) -> tuple[str, dict[str, Array]]:
-    """Return the kind of policy that a file holds, and its arrays.
-
-    Version 1 measured gaps in the root mean square radius of the movement, ``scale``. The ``half_size`` made of it is
-    that of a typical movement of this radius, so that such a policy tells near from far where it did.
-
-    Raises:
-        FileFormatError: If it is not a whole policy file.
-    """
-    arrays, meta = read_archive(path, _FILE_KIND, _FILE_VERSION)
-    if "scale" in arrays:
-        arrays["half_size"] = arrays.pop("scale") / RMS_RADIUS
-    return str(meta.get("policy", "")), arrays
 
 
 def check_demonstrations(paths: Sequence[ArrayLike], times: Sequence[ArrayLike]) -> tuple[Stroke, ...]:

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import CONTROL_PERIOD, Array, StoredPolicy, check_hand, frozen
+from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
 from signimit.policies.gaussian_mixture import within_speed
-from signimit.policies.reference_path.reference_path import learn_reference_path
-from signimit.policies.reference_path.timing import time_course
+from signimit.policies.reference_path.reference_path import learn_reference_path, sample_reference_path
+from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 BASES = 40  # basis functions of the forcing term
@@ -82,17 +82,17 @@ class DMPPolicy(StoredPolicy):
     @classmethod
     def learn(cls, demonstrations: Sequence[Stroke], *, frequency: float = FREQUENCY) -> Self:
         """Find the shared course and fit the forcing term to it."""
-        course = learn_reference_path(demonstrations)
-        nodes = time_course(course)
-        goal = nodes.mean(axis=0) if course.closed else nodes[-1]
-        ends = (nodes[-1:], nodes[:1]) if course.closed else (nodes[:1], nodes[-1:])
+        path = learn_reference_path(demonstrations)
+        nodes = sample_reference_path(path)
+        goal = nodes.mean(axis=0) if path.closed else nodes[-1]
+        ends = (nodes[-1:], nodes[:1]) if path.closed else (nodes[:1], nodes[-1:])
         line = np.concatenate([ends[0], nodes, ends[1]])
         velocity = np.diff(line, axis=0)[:-1] / CONTROL_PERIOD
         acceleration = np.diff(line, n=2, axis=0) / CONTROL_PERIOD**2
         wanted = acceleration - frequency**2 * (goal - nodes) + 2 * frequency * velocity
-        bases = _bases(np.arange(len(nodes)) / len(nodes), course.closed)
+        bases = _bases(np.arange(len(nodes)) / len(nodes), path.closed)
         weights = np.linalg.solve(bases.T @ bases + RIDGE * np.eye(BASES), bases.T @ wanted)
-        return cls(weights, nodes, float(course.closed), course.half_size, course.reach_speed, frequency)
+        return cls(weights, nodes, float(path.closed), path.half_size, path.reach_speed, frequency)
 
     def start(self) -> PrimitiveState:
         """Return the state of hands not seen yet."""

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import Array, StoredPolicy, check_hand, demonstrated_velocities
+from signimit.policies.base import Array, check_hand, demonstrated_velocities
 from signimit.policies.gaussian_mixture import (
     Mixture,
     bayesian_information,
@@ -21,6 +21,7 @@ from signimit.policies.gaussian_mixture import (
     regress,
     within_speed,
 )
+from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 from signimit.validation import whole_numbers
 

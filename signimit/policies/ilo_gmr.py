@@ -15,9 +15,10 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import Array, StoredPolicy, check_hand
+from signimit.policies.base import Array, check_hand
 from signimit.policies.gaussian_mixture import fit_mixture, regress, within_speed
 from signimit.policies.gmr import position_velocity, speed_limit
+from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 NEIGHBOURS = 50  # points of a local mixture, as many as the paper's policy has

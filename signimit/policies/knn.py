@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from scipy.spatial import cKDTree
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import Array, StoredPolicy, check_hand, demonstrated_velocities
+from signimit.policies.base import Array, check_hand, demonstrated_velocities
+from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 NEIGHBOURS = 50  # points; section II-E

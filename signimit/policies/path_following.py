@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.policies.base import CONTROL_PERIOD, Array, StoredPolicy, check_hand, frozen
-from signimit.policies.reference_path.reference_path import learn_reference_path
-from signimit.policies.reference_path.timing import time_course
+from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
+from signimit.policies.reference_path.reference_path import learn_reference_path, sample_reference_path
+from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
 
 # Chosen on six people of the $1 recogniser's data, four demonstrations a movement (docs/policies.md).
@@ -101,8 +101,8 @@ class PathFollowingPolicy(StoredPolicy):
     @classmethod
     def learn(cls, demonstrations: Sequence[Stroke], *, pull: float = PULL, near: float = NEAR) -> Self:
         """Find the shared course and lay it out in time."""
-        course = learn_reference_path(demonstrations)
-        return cls(time_course(course), float(course.closed), course.half_size, course.reach_speed, pull, near)
+        path = learn_reference_path(demonstrations)
+        return cls(sample_reference_path(path), float(path.closed), path.half_size, path.reach_speed, pull, near)
 
     def start(self) -> PhaseState:
         """Return the state of hands not seen yet."""

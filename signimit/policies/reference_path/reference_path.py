@@ -14,8 +14,17 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.paths import TimedPath, arc_lengths, half_size, space_path, space_timed_path
-from signimit.policies.base import Array
+from signimit.paths import (
+    TimedPath,
+    arc_lengths,
+    box_centre,
+    half_size,
+    interpolate,
+    space_path,
+    space_timed_path,
+    step_lengths,
+)
+from signimit.policies.base import CONTROL_PERIOD, Array
 from signimit.policies.reference_path.alignment import PhaseAlignment, align_phases
 from signimit.policies.reference_path.averaging import MeanPass, cut_passes, mean_pass
 from signimit.policies.reference_path.loop_closure import close_loop
@@ -33,6 +42,10 @@ FEWEST_ROUNDS = 1.3  # the typical demonstration of a repeating movement goes ro
 REFINEMENTS = 3
 SHORTEST_PASS = 0.15  # of a round; less is the end of a stroke, not another round
 FEWEST_NODES = 5  # of the way to a goal that everybody reaches from another side
+SLOWEST = 0.1  # of the mean speed: a longer pause is shortened
+FASTEST = 3.0  # of the mean speed: a glitch is slowed down
+MOST_NODES = 10_000  # control periods; what would take longer is done faster
+CORNER_ALLOWANCE = 1.03  # times the size: a mean of corners that do not quite meet lies inside them
 
 
 class ReferencePath(NamedTuple):
@@ -59,8 +72,8 @@ def learn_reference_path(demonstrations: Sequence[Stroke]) -> ReferencePath:
     chosen = _spread(demonstrations, MOST_CHOSEN_BY)
     coarse = [space_path(d.points, length / COARSE, most=LONGEST * COARSE) for d in chosen]
     unit = float(np.median([half_size(path[len(path) // 2 :]) for path in coarse]))  # the reach is over by then
-    points, closed = _choose_course(coarse, unit)
-    return _refine_course(_spread(demonstrations, MOST_REFINED_BY), points, closed, unit)
+    points, closed = _choose_path(coarse, unit)
+    return _refine_path(_spread(demonstrations, MOST_REFINED_BY), points, closed, unit)
 
 
 def _spread(demonstrations: Sequence[Stroke], most: int) -> list[Stroke]:
@@ -78,7 +91,7 @@ def _candidates(path: Array, unit: float) -> Iterator[tuple[Array, bool]]:
     yield path, False
 
 
-def _choose_course(paths: Sequence[Array], unit: float) -> tuple[Array, bool]:
+def _choose_path(paths: Sequence[Array], unit: float) -> tuple[Array, bool]:
     """Return the nodes of the cheapest candidate, and whether it is closed."""
     best, choice = np.inf, (paths[0], False)
     for path in paths[:MOST_MODELS]:
@@ -98,7 +111,7 @@ def _rounds(phases: NDArray[np.int64], nodes: int) -> float:
     return float(drawn[-1] - drawn[0]) / nodes
 
 
-def _refine_course(demonstrations: Sequence[Stroke], points: Array, closed: bool, unit: float) -> ReferencePath:
+def _refine_path(demonstrations: Sequence[Stroke], points: Array, closed: bool, unit: float) -> ReferencePath:
     """Align, average, and begin again with the average."""
     length = float(np.median([arc_lengths(d.points)[-1] for d in demonstrations]))
     spacing = length / FINE
@@ -137,3 +150,23 @@ def _reach_speed(paths: Sequence[TimedPath], alignments: Sequence[PhaseAlignment
         begins = [len(p.points) - 1 for p in paths]
         way = sum(arc_lengths(p.points)[-1] for p in paths)
     return float(way / sum(p.times[i] - p.times[0] for p, i in zip(paths, begins, strict=True)))
+
+
+def sample_reference_path(path: ReferencePath) -> Array:
+    """Return positions one control period apart, shape (K, 2), m, at the mean speed shown at each place.
+
+    A closed path is grown by `CORNER_ALLOWANCE` about the centre of its bounding box.
+    """
+    line = np.concatenate([path.points, path.points[:1]]) if path.closed else path.points
+    steps = step_lengths(line)
+    shown = path.speeds[: len(steps)]
+    mean = shown[shown > 0].mean() if (shown > 0).any() else path.reach_speed
+    speeds = np.clip(np.where(shown > 0, shown, mean), SLOWEST * mean, FASTEST * mean)
+    clock = np.concatenate([[0.0], np.cumsum(steps / speeds)])
+    count = int(np.clip(np.rint(clock[-1] / CONTROL_PERIOD), 2, MOST_NODES))
+    even = np.linspace(0.0, clock[-1], count + 1)
+    if not path.closed:
+        return interpolate(even, clock, line)
+    centre = box_centre(line)
+    nodes: Array = centre + CORNER_ALLOWANCE * (interpolate(even[:-1], clock, line) - centre)
+    return nodes

@@ -281,6 +281,8 @@ def test_an_unknown_option_is_refused_with_the_known_ones(shown: Compose) -> Non
         ("dmp", {"frequency": 50.0}, "frequency: expected between 0 and 50 rad/s"),
         ("dmp", {"frequency": np.nan}, "frequency: expected"),
         ("path-following", {"pull": -1.0}, "pull, near: expected above 0"),
+        ("path-following", {"pull": "strong"}, r"policy: pull: expected numbers of shape \(\)"),
+        ("path-following", {"near": [0.1, 0.2]}, r"policy: near: expected numbers of shape \(\)"),
         ("path-following", {"near": 0.4}, "pull, near: expected above 0, .* near below 0.32 half sizes"),
     ],
 )
