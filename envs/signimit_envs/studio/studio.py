@@ -70,9 +70,8 @@ class Studio:
     def start(self) -> None:
         """Start the threads of arm and camera."""
 
-        def import_matplotlib() -> (
-            None
-        ):  # before a figure is asked for, and after the first page, which waits for OpenGL
+        def import_matplotlib() -> None:
+            """Save the first figure the wait, once the camera has found OpenGL, which the first page waits for."""
             self.camera.unavailable_reason(OPENGL_PATIENCE)
             importlib.import_module("signimit.plots.paper")
 
