@@ -1,1 +1,1 @@
-"""Files of the project: the MJCF scene with its texture, and the page of the studio. Imports nothing."""
+"""Data files, no code: the arm's scene (``tabletop.xml``, ``wood.png``) and the studio's page (``studio/``)."""

@@ -1,6 +1,18 @@
 """Gymnasium environments in which instructions are unlabelled motion.
 
 Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/TabletopHand-v0``.
+
+================= =======================================================================================
+``tabletop``      the environments: actions, observations, rewards, success, reset options, languages
+``tabletop_hand`` the environment whose actions are velocities of the hand
+``arm``           the simulated arm: scene, constants, inverse kinematics; ``arm.batch`` many arms at once
+``sessions``      sessions of the paper on the simulated arm, their scores and reports
+``video``         pictures and films of the scene
+``recording``     episodes with their physics states, replayed exactly, in several file formats
+``studio``        the web page on which a user teaches and commands the arm
+``timing``        how long learning, obeying and the environments take
+``cli``           the commands
+================= =======================================================================================
 """
 
 import gymnasium as _gym
@@ -15,7 +27,21 @@ from signimit_envs.tabletop.env import TabletopEnv as TabletopEnv
 from signimit_envs.tabletop_hand import TabletopHandEnv as TabletopHandEnv
 from signimit_envs.video.record_mp4 import RecordMp4 as RecordMp4
 
-EPISODE_SECONDS = 12
+__all__ = [
+    "CONTROL_RATE",
+    "ENV_IDS",
+    "EPISODE_SECONDS",
+    "HandTrack",
+    "HandTracks",
+    "RecordMp4",
+    "RenderingError",
+    "TabletopEnv",
+    "TabletopHandEnv",
+    "reproduce",
+    "reproduce_many",
+]
+
+EPISODE_SECONDS = 12  # simulated time until an episode is truncated
 ENV_IDS = ("signimit/Tabletop-v0", "signimit/TabletopHand-v0")
 
 for _id, _env in zip(ENV_IDS, ("tabletop:TabletopEnv", "tabletop_hand:TabletopHandEnv"), strict=True):

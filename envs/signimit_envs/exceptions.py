@@ -1,4 +1,4 @@
-"""What can be wrong with the simulated world."""
+"""Errors of `signimit_envs` that a caller can react to."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from signimit import SignimitError
 
 
 class RenderingError(SignimitError, RuntimeError):
-    """There is no way to draw a picture here.
+    """Pictures cannot be drawn on this machine.
 
     Attributes:
         reason: What is missing.

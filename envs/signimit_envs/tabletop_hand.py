@@ -1,4 +1,4 @@
-"""`signimit/TabletopHand-v0`: signs to obey with the hand of a planar arm; its joints follow."""
+"""The environment `signimit/TabletopHand-v0`: actions are velocities of the hand, mink solves for the joints."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class JointControl:
     size = 3
 
     def __init__(self, controller: HandController) -> None:
-        """Command the joints themselves; no inverse kinematics are needed."""
+        """Take no notice of the controller: joints are commanded as they are."""
         self._speeds = np.full(self.size, MAX_JOINT_SPEED)
 
     def command(self, action: NDArray[np.float64], joints: NDArray[np.float64]) -> JointCommand:
@@ -60,10 +60,10 @@ CONTROLS: Mapping[str, Callable[[HandController], Control]] = {"hand": HandContr
 
 
 def make_control(name: str, controller: HandController) -> Control:
-    """Return a control by its name.
+    """Return a control mode by its name in `CONTROLS`.
 
     Raises:
-        UnknownNameError: If there is none of that name.
+        UnknownNameError: If there is no control mode of that name.
     """
     if name not in CONTROLS:
         raise UnknownNameError("control", name, CONTROLS)
@@ -71,7 +71,7 @@ def make_control(name: str, controller: HandController) -> Control:
 
 
 def checked_action(action: ArrayLike, size: int) -> NDArray[np.float64]:
-    """Return an action as an array of shape (size,), what is beyond -1 and 1 clipped.
+    """Return an action as an array of shape (size,), clipped to [-1, 1].
 
     Raises:
         InvalidInputError: If it has another shape or is not finite.

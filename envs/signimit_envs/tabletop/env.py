@@ -1,4 +1,4 @@
-"""`signimit/Tabletop-v0`: signs to obey with a planar arm."""
+"""The environment `signimit/Tabletop-v0`: a planar arm that two signs instruct."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from signimit_envs.arm.inverse_kinematics import HandController
 from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, compile_scene
 from signimit_envs.tabletop.actions import checked_action, make_control
 from signimit_envs.tabletop.language_options import choose_language, choose_person
-from signimit_envs.tabletop.observations import Sight, make_observer
+from signimit_envs.tabletop.observations import CameraView, make_observer
 from signimit_envs.tabletop.people import choose_tabletop_people
-from signimit_envs.tabletop.reset_options import draw_situation
+from signimit_envs.tabletop.reset_options import draw_episode_start
 from signimit_envs.tabletop.rewards import make_reward
 from signimit_envs.tabletop.success import SuccessDetector
 from signimit_envs.video.rendering import OffscreenView, WindowView, has_display
 
-_LEAST_RESIDUAL = 1e-3  # m, farther than this from where it should start the hand is out of reach
+_START_TOLERANCE = 1e-3  # m; a start that inverse kinematics miss by more is out of the arm's reach
 _CAMERAS = ("perspective", "top")
 _MODES = ("rgb_array", "human")
 
@@ -156,9 +156,9 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         self.controller = HandController(self.model)
         self.control, self._control = control, make_control(control, self.controller)
         self.action_space = gym.spaces.Box(-1.0, 1.0, (self._control.size,), np.float32)
-        self._observer = make_observer(obs_type, self._arm, spoken.words, Sight(camera, *size))
+        self._observer = make_observer(obs_type, self._arm, spoken.words, CameraView(camera, *size))
         self.observation_space = self._observer.space
-        self._judge = SuccessDetector(self.people.templates)
+        self._success = SuccessDetector(self.people.templates)
         self._reward = make_reward(reward, discount)
         self._camera = camera
         self._offscreen = OffscreenView(self.model, *size)
@@ -168,7 +168,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         """Start an episode.
 
         Args:
-            seed: Seed of everything that is drawn from now on.
+            seed: Seed of all random draws from now on.
             options: Any of movement, focus, objects (O, 2), hand (2,) and signs (W strokes); the rest is drawn.
 
         Raises:
@@ -176,14 +176,14 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
             RenderingError: If pictures are to be observed and there is no OpenGL.
         """
         super().reset(seed=seed)
-        start = draw_situation(options, self.people, len(self._arm.object_bodies), self.np_random)
+        start = draw_episode_start(options, self.people, len(self._arm.object_bodies), self.np_random)
         joints, away = self.controller.posture_at(start.hand)
-        if away > _LEAST_RESIDUAL:
+        if away > _START_TOLERANCE:
             raise InvalidInputError("reset option hand", "a position within the arm's reach", f"{start.hand}")
         self._request = start.request
         self._arm.place(start.objects, joints)
-        self._judge.start(start.request, start.objects, start.hand)
-        self._reward.start(self._judge.drawing, start.objects[start.request.focus], start.hand)
+        self._success.start(start.request, start.objects, start.hand)
+        self._reward.start(self._success.drawing, start.objects[start.request.focus], start.hand)
         self._observer.start(start)
         if self.render_mode == "human":
             self.render()
@@ -201,7 +201,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         arm = self._arm
         command = self._control.command(checked_action(action, self._control.size), self.data.qpos)
         error = arm.track(command.velocities)
-        fulfilled = not error and self._judge.watch(arm.hand)
+        fulfilled = not error and self._success.watch(arm.hand)
         reward = self._reward.of_step(arm.hand, fulfilled, bool(error))
         if self.render_mode == "human":
             self.render()
@@ -236,8 +236,8 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
     def _info(self, residual: float, error: str) -> dict[str, Any]:
         return {
             "request": self._request,
-            "is_success": self._judge.done,
-            "performance": self._judge.performance,
+            "is_success": self._success.done,
+            "performance": self._success.performance,
             "ik_residual": residual,
             "physics_error": error,
         }

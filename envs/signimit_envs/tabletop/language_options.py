@@ -1,4 +1,4 @@
-"""The language of an environment, from what `gymnasium.make` can be given and JSON can say."""
+"""Language and people of an environment, from the arguments of `gymnasium.make` (JSON types)."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _NUMBERS = ("focus_word", "movement_word", "repetitions")
 def choose_language(
     language: Language | Mapping[str, Any] | None, objects: int | None, movements: Sequence[str] | None
 ) -> Language:
-    """Return the language that is spoken about a table.
+    """Return the language of an environment.
 
     Args:
-        language: The language, or its fields by name; left out, `digit_language` of the next two.
+        language: The language, or its fields by name; left out, `digit_language` of the next two arguments.
         objects: Number of objects; left out, as many as the language has signs for, or 3.
         movements: Labels of the movements; left out, the language's, or the paper's three.
 
     Raises:
-        InvalidInputError: If it is not a language, or one for other objects or movements.
+        InvalidInputError: If it is not a language, or contradicts ``objects`` or ``movements``.
         UnknownNameError: If a language has no such field.
     """
     if language is None:
@@ -42,7 +42,7 @@ def choose_language(
 
 
 def digit_language(objects: int, movements: Sequence[str]) -> Language:
-    """Return the paper's kind of language: first a digit for the object, then one for the movement.
+    """Return the language whose signs are digits: first one for the object, then one for the movement.
 
     Raises:
         InvalidInputError: If there are no movements, or more objects and movements than digits.
@@ -60,10 +60,10 @@ def digit_language(objects: int, movements: Sequence[str]) -> Language:
 
 
 def language_from_fields(fields: Mapping[str, Any]) -> Language:
-    """Make a language of its fields as JSON says them: lists for tuples.
+    """Make a language from its fields in JSON types (lists for tuples).
 
     Raises:
-        InvalidInputError: If a field is of another type, or together they are no language.
+        InvalidInputError: If a field has another type, or the fields do not make a language.
         UnknownNameError: If there is no such field.
     """
     if not isinstance(fields, Mapping):
@@ -75,21 +75,23 @@ def language_from_fields(fields: Mapping[str, Any]) -> Language:
 
 
 def _field(name: str, value: Any) -> Any:
+    """Convert one field of a language from JSON types."""
     if name in _NUMBERS:
         return _whole(value, name)
     if name == "unseen":
-        return None if value is None else tuple(_request(pair) for pair in _items(value, name))
+        if value is None:
+            return None
+        requests = []
+        for pair in _items(value, name):
+            numbers = [_whole(number, name) for number in _items(pair, name)]
+            if len(numbers) != len(Request._fields):
+                raise InvalidInputError("language: unseen", "pairs of a movement and an object", f"{pair!r:.60}")
+            requests.append(Request(*numbers))
+        return tuple(requests)
     labels = _items(value, name)
     if not all(isinstance(label, str) for label in labels):
         raise InvalidInputError(f"language: {name}", "labels", f"{value!r:.60}")
     return tuple(labels)
-
-
-def _request(value: Any) -> Request:
-    numbers = [_whole(number, "unseen") for number in _items(value, "unseen")]
-    if len(numbers) != len(Request._fields):
-        raise InvalidInputError("language: unseen", "pairs of a movement and an object", f"{value!r:.60}")
-    return Request(*numbers)
 
 
 def _whole(value: Any, name: str) -> int:
@@ -105,11 +107,11 @@ def _items(value: Any, name: str) -> list[Any]:
 
 
 def choose_person(value: Source | Sequence[str | None] | str | None, role: str) -> Source:
-    """Return where a person comes from.
+    """Return the source of a person's strokes.
 
     Args:
-        value: File of a stroke library, or the file and whose of its strokes; none for a synthetic person.
-        role: What the person does, for the error message.
+        value: File of a stroke library, or the file and a person in it; None for a synthetic person.
+        role: ``"signer"`` or ``"mover"``, for the error message.
 
     Raises:
         InvalidInputError: If it is neither.

@@ -1,4 +1,4 @@
-"""What an agent observes: numbers, a picture, or both."""
+"""Observations: numbers, a picture, or both."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from signimit_envs.tabletop.reset_options import EpisodeStart
 from signimit_envs.tabletop.sign_cards import draw_sign_cards
 from signimit_envs.video.rendering import OffscreenView
 
-LEAST_SIDE = 32  # pixels; less shows no sign
-CARDS_SHARE = 4  # the signs take one in so many rows of a picture
+MIN_SIDE = 32  # pixels; signs cannot be told apart in a smaller picture
+CARDS_SHARE = 4  # the cards with the signs take a quarter of a picture's rows
 
 
-class Sight(NamedTuple):
-    """How pictures are taken.
+class CameraView(NamedTuple):
+    """A camera and the size of its pictures.
 
     Attributes:
-        camera: Its name in the model.
-        width: Pixels.
-        height: Pixels.
+        camera: Name of the camera in the model.
+        width: Width of a picture, pixels.
+        height: Height of a picture, pixels.
     """
 
     camera: str
@@ -36,15 +36,15 @@ class Sight(NamedTuple):
 
 
 class Observer(Protocol):
-    """Observes an arm, its table and the signs of an episode."""
+    """Source of observations: an observation space, and the observations of the running episode."""
 
     @property
     def space(self) -> gym.Space[Any]:
-        """What observations are like."""
+        """The observation space."""
         ...
 
-    def start(self, situation: EpisodeStart) -> None:
-        """Take note of what an episode starts from."""
+    def start(self, start: EpisodeStart) -> None:
+        """Begin an episode."""
         ...
 
     def observe(self) -> Any:
@@ -52,21 +52,21 @@ class Observer(Protocol):
         ...
 
     def close(self) -> None:
-        """Free what OpenGL holds; may be called again."""
+        """Free the OpenGL context; may be called again."""
         ...
 
 
 class StateObserver:
-    """Observes positions, velocities and signs as numbers."""
+    """Observes positions, velocities and signs as numbers (``obs_type="state"``)."""
 
-    def __init__(self, arm: Arm, words: int, sight: Sight) -> None:
-        """Observe an arm, and so many signs."""
+    def __init__(self, arm: Arm, words: int, view: CameraView) -> None:
+        """Observe an arm and an utterance of ``words`` signs; no pictures are taken."""
         self._arm, self._measure = arm, arm.measure
         self.space = state_space(len(arm.object_bodies), words)
 
-    def start(self, situation: EpisodeStart) -> None:
-        """Keep objects and signs."""
-        self._objects, self._signs = situation.objects, situation.signs
+    def start(self, start: EpisodeStart) -> None:
+        """Keep the objects and signs of the episode."""
+        self._objects, self._signs = start.objects, start.signs
 
     def observe(self) -> dict[str, NDArray[np.float64]]:
         """Return the state."""
@@ -76,33 +76,34 @@ class StateObserver:
         return state
 
     def close(self) -> None:
-        """Hold nothing."""
+        """Free nothing."""
 
 
 class PixelObserver:
-    """Observes a picture: the signs on cards, and below them what a camera sees.
+    """Observes a picture: the signs on cards, and below them the camera's view (``obs_type="pixels"``).
 
     The cards have rows of their own, as the inventory in Crafter has, so that they never hide a part of the table.
     """
 
-    def __init__(self, arm: Arm, words: int, sight: Sight) -> None:
-        """Look at an arm; OpenGL is looked for at the first picture.
+    def __init__(self, arm: Arm, words: int, view: CameraView) -> None:
+        """Observe an arm through a camera; OpenGL is looked for at the first picture.
 
         Raises:
             InvalidInputError: If the picture is too small or too large.
         """
-        if min(sight.width, sight.height) < LEAST_SIDE:
-            expected = f"at least {LEAST_SIDE} by {LEAST_SIDE} pixels, to see signs"
-            raise InvalidInputError("size of frames", expected, f"{sight.width} by {sight.height}")
-        self._arm, self._sight = arm, sight
-        self._rows = sight.height // CARDS_SHARE
-        self._view = OffscreenView(arm.model, sight.width, sight.height - self._rows)
-        self._cards = np.zeros((self._rows, sight.width, 3), np.uint8)
-        self.space = gym.spaces.Box(0, 255, (sight.height, sight.width, 3), np.uint8)
+        if min(view.width, view.height) < MIN_SIDE:
+            expected = f"at least {MIN_SIDE} by {MIN_SIDE} pixels, to see signs"
+            raise InvalidInputError("size of frames", expected, f"{view.width} by {view.height}")
+        self._arm, self._camera = arm, view.camera
+        rows = view.height // CARDS_SHARE
+        self._cards_size = view.width, rows
+        self._offscreen = OffscreenView(arm.model, view.width, view.height - rows)
+        self._cards = np.zeros((rows, view.width, 3), np.uint8)
+        self.space = gym.spaces.Box(0, 255, (view.height, view.width, 3), np.uint8)
 
-    def start(self, situation: EpisodeStart) -> None:
-        """Draw the signs, once an episode."""
-        self._cards = draw_sign_cards(list(situation.signs), (self._sight.width, self._rows))
+    def start(self, start: EpisodeStart) -> None:
+        """Draw the cards, once an episode."""
+        self._cards = draw_sign_cards(list(start.signs), self._cards_size)
 
     def observe(self) -> NDArray[np.uint8]:
         """Take a picture, shape (height, width, 3).
@@ -110,56 +111,59 @@ class PixelObserver:
         Raises:
             RenderingError: If there is no OpenGL.
         """
-        return np.concatenate([self._cards, self._view.frame(self._arm.data, self._sight.camera)])
+        return np.concatenate([self._cards, self._offscreen.frame(self._arm.data, self._camera)])
 
     def close(self) -> None:
-        """Free what OpenGL holds; may be called again."""
-        self._view.close()
+        """Free the OpenGL context; may be called again."""
+        self._offscreen.close()
 
 
 class StatePixelObserver:
-    """Observes the state and the picture."""
+    """Observes the state and the picture (``obs_type="state_pixels"``)."""
 
-    def __init__(self, arm: Arm, words: int, sight: Sight) -> None:
-        """Observe both ways."""
-        self._state, self._pixels = StateObserver(arm, words, sight), PixelObserver(arm, words, sight)
+    def __init__(self, arm: Arm, words: int, view: CameraView) -> None:
+        """Combine a `StateObserver` and a `PixelObserver`."""
+        self._state, self._pixels = StateObserver(arm, words, view), PixelObserver(arm, words, view)
         self.space = gym.spaces.Dict({**self._state.space, "pixels": self._pixels.space})
 
-    def start(self, situation: EpisodeStart) -> None:
-        """Take note in both ways."""
-        self._state.start(situation)
-        self._pixels.start(situation)
+    def start(self, start: EpisodeStart) -> None:
+        """Begin an episode."""
+        self._state.start(start)
+        self._pixels.start(start)
 
     def observe(self) -> dict[str, NDArray[Any]]:
         """Return the state with the picture as ``pixels``."""
         return {**self._state.observe(), "pixels": self._pixels.observe()}
 
     def close(self) -> None:
-        """Free what OpenGL holds; may be called again."""
+        """Free the OpenGL context; may be called again."""
         self._pixels.close()
 
 
-OBSERVERS: Mapping[str, Callable[[Arm, int, Sight], Observer]] = {
+OBSERVERS: Mapping[str, Callable[[Arm, int, CameraView], Observer]] = {
     "state": StateObserver,
     "pixels": PixelObserver,
     "state_pixels": StatePixelObserver,
 }
 
 
-def make_observer(obs_type: str, arm: Arm, words: int, sight: Sight) -> Observer:
-    """Return an observer by the name of what it gives.
+def make_observer(obs_type: str, arm: Arm, words: int, view: CameraView) -> Observer:
+    """Return the observer of an ``obs_type``.
 
     Raises:
-        UnknownNameError: If there is none of that name.
-        InvalidInputError: If it cannot take such pictures.
+        UnknownNameError: If there is no such ``obs_type``.
+        InvalidInputError: If pictures are observed and their size is too small or too large.
     """
     if obs_type not in OBSERVERS:
         raise UnknownNameError("obs_type", obs_type, OBSERVERS)
-    return OBSERVERS[obs_type](arm, words, sight)
+    return OBSERVERS[obs_type](arm, words, view)
 
 
 def state_space(objects: int, words: int) -> gym.spaces.Dict:
-    """Return bounds that nothing exceeds: the arm is 1.35 m long and starts 0.72 m from the table's centre."""
+    """Return the space of states, O objects and W signs; bounds are never exceeded.
+
+    The arm is 1.35 m long and its base 0.72 m from the table's centre, so the hand stays within 2.1 m of it.
+    """
 
     def box(limit: float | NDArray[np.float64], *shape: int) -> gym.spaces.Box:
         bound = np.broadcast_to(np.asarray(limit, dtype=np.float64), shape)

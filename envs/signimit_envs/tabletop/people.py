@@ -1,4 +1,4 @@
-"""The people of the environments: one who makes the signs, and one whose drawings the judge compares with."""
+"""The people of an environment: the signer, and the mover whose drawings define success."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from signimit.teaching.people.choosing import SYNTHETIC, People, Source, load_pe
 from signimit.teaching.people.glyphs import GLYPHS
 from signimit.teaching.stroke_sampler import ReplacingSampler, StrokeSource
 
-_DRAWINGS = 2  # of each movement
+_DRAWINGS = 2  # drawings of each movement that the success detector compares with
 
 
 @dataclass(frozen=True, eq=False)
 class TabletopPeople(People[StrokeSource]):
-    """`People` whose signs depend on the generator alone, so that a seed decides an episode whatever was before.
+    """`People` whose strokes are drawn with replacement: an episode depends on its seed alone, not on earlier ones.
 
     Attributes:
         templates: For each movement the mover's drawings, each (T, 2), m, in the object's frame.
@@ -33,10 +33,10 @@ class TabletopPeople(People[StrokeSource]):
 def choose_tabletop_people(
     language: Language, rng: np.random.Generator, signer: Source = SYNTHETIC, mover: Source = SYNTHETIC
 ) -> TabletopPeople:
-    """Choose two people who know a language; synthetic ones where no strokes are given.
+    """Choose signer and mover of a language; synthetic people where no stroke library is given.
 
     Raises:
-        UnknownNameError: If synthetic people should draw what they do not know.
+        UnknownNameError: If a synthetic person does not know a sign or movement of the language.
         SignimitError: If a file or a person in it cannot be used.
     """
     if mover == SYNTHETIC:

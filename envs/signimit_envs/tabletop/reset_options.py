@@ -1,4 +1,4 @@
-"""What an episode starts from: a scene, a request and the signs that make it, given or drawn at random."""
+"""The start of an episode: scene, request and signs, each given in `reset(options=...)` or drawn at random."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from signimit.validation import finite_array
 from signimit_envs.arm.scene import TABLE, WORKSPACE
 
 OPTIONS = ("movement", "focus", "objects", "hand", "signs")
-WORDS = 2  # signs of an utterance in the paper's language; a filler makes it three
+WORDS = 2  # signs of an utterance in the paper's language (II-A); a filler makes it three
 
 
 class EpisodeStart(NamedTuple):
-    """The start of an episode.
+    """Scene, request and signs that an episode starts from; metres, table frame.
 
     Attributes:
-        request: What is asked for.
+        request: Movement and object that are asked for.
         objects: Object positions, shape (O, 2), m.
         hand: Position of the hand, shape (2,), m.
         signs: The signs, shape (W, 64, 2), evenly resampled, centred, within [-1, 1].
@@ -37,41 +37,41 @@ class EpisodeStart(NamedTuple):
     signs: NDArray[np.float64]
 
 
-def draw_situation(
+def draw_episode_start(
     options: Mapping[str, Any] | None, people: People[StrokeSource], objects: int, rng: np.random.Generator
 ) -> EpisodeStart:
-    """Take from the options what they have, and draw the rest.
+    """Take the start of an episode from the options, and draw what they leave out.
 
     Args:
         options: Any of movement, focus, objects, hand and signs.
-        people: Who makes the signs.
+        people: The signer, and the language of the signs.
         objects: Number of objects O.
         rng: Source of everything that is drawn.
 
     Raises:
-        UnknownNameError: If an option is none of these.
-        InvalidInputError: If an option cannot be used.
+        UnknownNameError: If there is no option of that name.
+        InvalidInputError: If an option has another type or shape, or lies outside table or workspace.
     """
     given = {name: value for name, value in (options or {}).items() if value is not None}
     for name in given:
         if name not in OPTIONS:
             raise UnknownNameError("reset option", name, OPTIONS)
     request = Request(
-        _number(given.get("movement"), "movement", len(people.language.movements), rng),
-        _number(given.get("focus"), "focus", objects, rng),
+        _checked_number(given.get("movement"), "movement", len(people.language.movements), rng),
+        _checked_number(given.get("focus"), "focus", objects, rng),
     )
-    places = _inside(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
-    hand = _inside(given["hand"], "hand", (2,), WORKSPACE) if "hand" in given else None
-    signs = _given_signs(given["signs"], people.language.words) if "signs" in given else None
+    objects_given = _checked_positions(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
+    hand = _checked_positions(given["hand"], "hand", (2,), WORKSPACE) if "hand" in given else None
+    signs = _checked_signs(given["signs"], people.language.words) if "signs" in given else None
     return EpisodeStart(
         request,
-        sample_scene(rng, objects) if places is None else places,
+        sample_scene(rng, objects) if objects_given is None else objects_given,
         sample_hand(rng) if hand is None else hand,
         np.stack([normalised_sign(s) for s in people.speak(request, rng)]) if signs is None else signs,
     )
 
 
-def _number(value: object, name: str, count: int, rng: np.random.Generator) -> int:
+def _checked_number(value: object, name: str, count: int, rng: np.random.Generator) -> int:
     if value is None:
         return int(rng.integers(count))
     whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
@@ -80,7 +80,7 @@ def _number(value: object, name: str, count: int, rng: np.random.Generator) -> i
     return int(value)  # type: ignore[call-overload, no-any-return]
 
 
-def _inside(value: Any, name: str, shape: tuple[int, ...], half: NDArray[np.float64]) -> NDArray[np.float64]:
+def _checked_positions(value: Any, name: str, shape: tuple[int, ...], half: NDArray[np.float64]) -> NDArray[np.float64]:
     points = finite_array(value, f"reset option {name}", shape)
     outside = np.argwhere((np.abs(points) > half + 1e-9).any(axis=-1))
     if len(outside):
@@ -90,7 +90,7 @@ def _inside(value: Any, name: str, shape: tuple[int, ...], half: NDArray[np.floa
     return points
 
 
-def _given_signs(value: Any, words: int) -> NDArray[np.float64]:
+def _checked_signs(value: Any, words: int) -> NDArray[np.float64]:
     try:
         signs = list(value)
     except TypeError:

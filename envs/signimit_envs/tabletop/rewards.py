@@ -1,4 +1,4 @@
-"""What a step is worth: sparse as the benchmark counts it, or with potential-based shaping besides."""
+"""Rewards: sparse as the benchmark counts success, or dense with potential-based shaping."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from signimit import InvalidInputError, UnknownNameError
 from signimit.evaluation import Template
 
-_PASSED = 0.25  # half sizes of the drawing within which a point of it counts as passed, as for the judge's coverage
-_ALONG = 0.5  # cosine between the hand's way and the drawing's from which they go the same way
+_PASS_RADIUS = 0.25  # half sizes of the drawing; a point this near to the hand is passed, as in `signimit.performed`
+_MIN_COSINE = 0.5  # between the directions of hand and drawing, for the hand to go the drawing's way
 _COVERAGE_SHARE = 0.75  # of the potential; the rest is closeness
-_THIN = 2  # one in so many points of the drawing is enough
-_STILL = 1e-5  # m; who moves less in a control step goes no way
-_COMPLEX = np.array([1.0, 1.0j])  # x and y to one number
+_STRIDE = 2  # every second point of the drawing is enough
+_MIN_MOTION = 1e-5  # m a control step; a slower hand has no direction
+_COMPLEX = np.array([1.0, 1.0j])  # (x, y) @ _COMPLEX = x + iy
 
 
 class Potential:
-    """How far along an episode is, Φ in [0, 1].
+    """Potential Φ in [0, 1] of an episode: how much of the requested movement is done.
 
     Φ = 3/4 coverage + 1/4 closeness. Coverage is the share of the points of the requested movement, drawn about the
     requested object, that the hand has passed in this episode, within a quarter of the drawing's half size and going
@@ -39,8 +39,8 @@ class Potential:
         Returns:
             Φ of the start.
         """
-        self._points = (drawing.points[::_THIN] + place) @ _COMPLEX
-        self._headings = drawing.directions[::_THIN] @ _COMPLEX.conj()  # conjugate: multiplied, it gives the angle
+        self._points = (drawing.points[::_STRIDE] + place) @ _COMPLEX
+        self._headings = drawing.directions[::_STRIDE] @ _COMPLEX.conj()  # conjugate: multiplied, it gives the angle
         self._half_size = drawing.half_size
         self._passed = np.zeros(len(self._points), dtype=np.bool_)
         self._hand = complex(*hand.tolist())
@@ -50,10 +50,10 @@ class Potential:
         """Take the next position of the hand, shape (2,), m; return Φ."""
         before, self._hand = self._hand, complex(*hand.tolist())
         gaps = np.abs(self._points - self._hand)
-        way = self._hand - before
-        if abs(way) > _STILL:
-            along = (self._headings * (way / abs(way))).real >= _ALONG
-            self._passed |= along & (gaps <= _PASSED * self._half_size)
+        motion = self._hand - before
+        if abs(motion) > _MIN_MOTION:
+            along = (self._headings * (motion / abs(motion))).real >= _MIN_COSINE
+            self._passed |= along & (gaps <= _PASS_RADIUS * self._half_size)
         return self._value(gaps)
 
     def _value(self, gaps: NDArray[np.float64]) -> float:
@@ -62,31 +62,31 @@ class Potential:
 
 
 class Reward(Protocol):
-    """Says what steps are worth."""
+    """Reward of the steps of an environment."""
 
     def start(self, drawing: Template, place: NDArray[np.float64], hand: NDArray[np.float64]) -> None:
         """Begin an episode; arguments as of `Potential.start`."""
         ...
 
     def of_step(self, hand: NDArray[np.float64], fulfilled: bool, over: bool) -> float:
-        """Value the step that took the hand, shape (2,), m, where it is.
+        """Return the reward of a control step.
 
         Args:
-            hand: Where the hand is now.
-            fulfilled: Whether the request was seen to be fulfilled just now.
+            hand: Position of the hand after the step, shape (2,), m.
+            fulfilled: Whether this step fulfilled the request for the first time.
             over: Whether the episode terminated.
         """
         ...
 
 
 class SparseReward:
-    """1 where the request is seen to be fulfilled for the first time, else 0."""
+    """1 at the step where the request is first seen to be fulfilled, else 0."""
 
     def __init__(self, discount: float) -> None:
-        """Need no discount."""
+        """Take no notice of the discount."""
 
     def start(self, drawing: Template, place: NDArray[np.float64], hand: NDArray[np.float64]) -> None:
-        """Remember nothing."""
+        """Begin an episode; nothing is kept."""
 
     def of_step(self, hand: NDArray[np.float64], fulfilled: bool, over: bool) -> float:
         """Return 1 or 0."""
@@ -103,7 +103,7 @@ class DenseReward:
     """
 
     def __init__(self, discount: float) -> None:
-        """Shape with the discount γ that the agent has."""
+        """Shape with the agent's discount γ, in [0, 1]."""
         self._discount = discount
         self._potential = Potential()
         self._before = 0.0
@@ -124,10 +124,10 @@ REWARDS: Mapping[str, Callable[[float], Reward]] = {"sparse": SparseReward, "den
 
 
 def make_reward(name: str, discount: float) -> Reward:
-    """Return a reward by its name.
+    """Return a reward by its name in `REWARDS`.
 
     Raises:
-        UnknownNameError: If there is none of that name.
+        UnknownNameError: If there is no reward of that name.
         InvalidInputError: If the discount is not in [0, 1].
     """
     if name not in REWARDS:

@@ -1,4 +1,4 @@
-"""Signs as pictures small enough to be observed: cards side by side, the ink telling which way a sign was drawn."""
+"""Cards with the signs of an utterance, for observations that are pictures; ink shows the direction of drawing."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
 PAPER, FIRST_INK, LAST_INK = (250, 249, 246), (20, 20, 20), (230, 120, 0)
-_FINER = 4  # drawn so much larger, then reduced: lines without steps
-_MARGIN, _PEN = 0.14, 0.09  # of a card's side
+_OVERSAMPLING = 4  # drawn four times as large, then reduced, to smooth the lines
+_MARGIN, _PEN = 0.14, 0.09  # shares of a card's side
 
 
 def draw_sign_cards(signs: Sequence[NDArray[np.float64]], size: tuple[int, int]) -> NDArray[np.uint8]:
@@ -23,22 +23,18 @@ def draw_sign_cards(signs: Sequence[NDArray[np.float64]], size: tuple[int, int])
     Returns:
         Shape (height, width, 3).
     """
-    width, height = (side * _FINER for side in size)
+    width, height = (side * _OVERSAMPLING for side in size)
     image = Image.new("RGB", (width, height), PAPER)
     draw = ImageDraw.Draw(image)
     share = width / len(signs)
     side = min(share, height)
     for word, sign in enumerate(signs):
         places = np.array([(word + 0.5) * share, height / 2]) + sign * [1, -1] * (0.5 - _MARGIN) * side
-        _draw_stroke(draw, places, max(1, round(_PEN * side)))
+        pen = max(1, round(_PEN * side))
+        inks = np.linspace(FIRST_INK, LAST_INK, len(places) - 1).round().astype(int).tolist()
+        for (red, green, blue), start, (x, y) in zip(inks, places[:-1].tolist(), places[1:].tolist(), strict=True):
+            draw.line([tuple(start), (x, y)], (red, green, blue), pen)
+            draw.ellipse((x - pen / 2, y - pen / 2, x + pen / 2, y + pen / 2), (red, green, blue))
         if word:
-            draw.line([(word * share, 0.15 * height), (word * share, 0.85 * height)], (200, 198, 192), _FINER)
-    return np.array(image.reduce(_FINER))
-
-
-def _draw_stroke(draw: ImageDraw.ImageDraw, places: NDArray[np.float64], pen: int) -> None:
-    inks = np.linspace(FIRST_INK, LAST_INK, len(places) - 1).round().astype(int).tolist()
-    for (red, green, blue), start, end in zip(inks, places[:-1].tolist(), places[1:].tolist(), strict=True):
-        draw.line([tuple(start), tuple(end)], (red, green, blue), pen)
-        x, y = end
-        draw.ellipse((x - pen / 2, y - pen / 2, x + pen / 2, y + pen / 2), (red, green, blue))
+            draw.line([(word * share, 0.15 * height), (word * share, 0.85 * height)], (200, 198, 192), _OVERSAMPLING)
+    return np.array(image.reduce(_OVERSAMPLING))

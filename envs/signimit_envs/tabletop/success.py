@@ -1,4 +1,4 @@
-"""Has the hand done what was asked? A judge that is cheap enough to sit beside a running episode."""
+"""Success detection: whether the hand has fulfilled the request, checked while an episode runs."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from signimit.evaluation import (
 )
 from signimit.teaching.languages import Request
 
-WINDOW = 600  # samples of the past that count: 12 s
-_FIRST, _BETWEEN = 75, 25  # control steps until the first look, and between looks
-_ROOM = 1.3  # a glance rules out only what exceeds the tolerance by so much: it overlooks a little
-_COMPLEX = np.array([1.0, 1.0j])  # x and y to one number
-_THIN = 4  # one in so many points is enough for a glance
+WINDOW = 600  # control steps of the past that are judged: 12 s
+_FIRST_CHECK, _CHECK_PERIOD = 75, 25  # control steps until the first check (1.5 s), and between checks (0.5 s)
+_COARSE_MARGIN = 1.3  # the coarse check uses few points: it rules out only what exceeds the tolerance by this factor
+_COMPLEX = np.array([1.0, 1.0j])  # (x, y) @ _COMPLEX = x + iy: one distance is one complex modulus
+_STRIDE = 4  # the coarse check takes every fourth position of the hand
 
 
 class PathRecord:
-    """The latest positions of the hand."""
+    """Sliding window over the last `WINDOW` positions of the hand."""
 
     def __init__(self) -> None:
         """Start empty."""
@@ -35,7 +35,7 @@ class PathRecord:
         self._count = 0
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Forget all positions."""
         self._count = 0
 
     def append(self, hand: NDArray[np.float64]) -> None:
@@ -58,33 +58,36 @@ class PathRecord:
 
 
 class SuccessDetector:
-    """Watches one episode at a time and says when the request is fulfilled.
+    """Detects the step at which the request of an episode is fulfilled, by `signimit.performed`.
 
-    A look costs a millisecond, a control step a tenth of one. So the judge glances twice a second at whether the hand
-    does anything like what was asked for, looks closer if so, and compares with everything else that could have been
-    meant only where the request seems fulfilled.
+    `signimit.performed` takes a millisecond, a control step a tenth of one. So twice a second a coarse check tells
+    whether the hand passed near the requested drawing; if it did, the misfit to the request alone is computed; and
+    only where that is within the tolerance, the path is compared with all movements about all objects.
+
+    Attributes:
+        performance: What was performed when the request was fulfilled; movement -1 before.
     """
 
     def __init__(self, templates: Sequence[Sequence[NDArray[np.float64]]]) -> None:
-        """Take the drawings that show each movement, in the object's frame, m."""
+        """Prepare the drawings that show each movement, each (T, 2), m, in the object's frame."""
         self._templates = templates
         self._prepared = prepare_templates(templates)
-        self._sought, self._farthest = np.zeros(1, dtype=np.complex128), 0.0
+        self._expected, self._max_gap = np.zeros(1, dtype=np.complex128), 0.0
         self._path = PathRecord()
         self._objects = np.zeros((0, 2))
         self._request = Request(0, 0)
-        self._next = _FIRST
+        self._steps_to_check = _FIRST_CHECK
         self.performance = NOTHING
 
     def start(self, request: Request, objects: NDArray[np.float64], hand: NDArray[np.float64]) -> None:
-        """Begin a new episode."""
+        """Begin an episode with objects (O, 2) and the hand (2,), m, where it starts."""
         self._request, self._objects = request, objects
         drawing = self.drawing
-        self._sought = (drawing.points[:: 2 * _THIN] + objects[request.focus]) @ _COMPLEX
-        self._farthest = _ROOM * 2 * drawing.half_size * TOLERANCE
+        self._expected = (drawing.points[:: 2 * _STRIDE] + objects[request.focus]) @ _COMPLEX
+        self._max_gap = _COARSE_MARGIN * 2 * drawing.half_size * TOLERANCE
         self._path.clear()
         self._path.append(hand)
-        self._next, self.performance = _FIRST, NOTHING
+        self._steps_to_check, self.performance = _FIRST_CHECK, NOTHING
 
     @property
     def drawing(self) -> Template:
@@ -99,28 +102,24 @@ class SuccessDetector:
     def watch(self, hand: NDArray[np.float64]) -> bool:
         """Take the next position of the hand, shape (2,), m; return whether just now the request was fulfilled."""
         self._path.append(hand)
-        self._next -= 1
-        if self._next or self.performance.movement >= 0:
+        self._steps_to_check -= 1
+        if self._steps_to_check or self.done:
             return False
-        self._next = _BETWEEN
-        if self._requested_error() > TOLERANCE:
+        self._steps_to_check = _CHECK_PERIOD
+        # Coarse check: mean distance of the requested drawing from the last two thirds of the path.
+        path = self._path.latest_complex
+        gaps = np.abs(path[len(path) // 3 :: _STRIDE, None] - self._expected)
+        if gaps.min(axis=0).mean() > self._max_gap:
             return False
+        # Misfit to the request alone.
+        settled = settled_part(self._path.latest)
+        if settled is None:
+            return False
+        movement, focus = self._request
+        if movement_error(settled - self._objects[focus], self._prepared[movement]) > TOLERANCE:
+            return False
+        # All movements about all objects: is the request what was performed best?
         performance = performed(self._path.latest, self._objects, self._templates)
         if (performance.movement, performance.focus) == self._request:
             self.performance = performance
         return self.done
-
-    def _requested_error(self) -> float:
-        """Misfit of the path so far to what was asked for, infinite where a glance rules it out."""
-        if self._leaves_out_too_much():
-            return np.inf
-        tail = settled_part(self._path.latest)
-        if tail is None:
-            return np.inf
-        return movement_error(tail - self._objects[self._request.focus], self._prepared[self._request.movement])
-
-    def _leaves_out_too_much(self) -> bool:
-        """Whether the hand passed so far from what should have been drawn that nothing else matters."""
-        path = self._path.latest_complex
-        gaps = np.abs(path[len(path) // 3 :: _THIN, None] - self._sought)
-        return bool(gaps.min(axis=0).mean() > self._farthest)

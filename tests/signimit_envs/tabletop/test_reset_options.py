@@ -12,14 +12,14 @@ from signimit.signs import normalised_sign
 from signimit.teaching.languages import Request
 from signimit_envs.tabletop.language_options import MOVEMENTS, digit_language
 from signimit_envs.tabletop.people import choose_tabletop_people
-from signimit_envs.tabletop.reset_options import draw_situation
+from signimit_envs.tabletop.reset_options import draw_episode_start
 
 PEOPLE = choose_tabletop_people(digit_language(3, MOVEMENTS), np.random.default_rng(0))
 WAVE = np.column_stack([np.linspace(0, 1, 30), np.sin(np.linspace(0, 6, 30))])
 
 
 def draw(options: dict[str, Any] | None = None, seed: int = 0) -> Any:
-    return draw_situation(options, PEOPLE, 3, np.random.default_rng(seed))
+    return draw_episode_start(options, PEOPLE, 3, np.random.default_rng(seed))
 
 
 def test_what_is_left_out_is_drawn_within_the_promised_areas() -> None:
