@@ -1,4 +1,4 @@
-"""The simulated arm over its table: where it is, and one control step of it."""
+"""The simulated arm: its state and its control steps."""
 
 from __future__ import annotations
 
@@ -8,21 +8,22 @@ from numpy.typing import NDArray
 
 from signimit_envs.arm.scene import CONTROL_RATE, SUBSTEPS, object_bodies
 
-_DT = 1.0 / CONTROL_RATE
+_DT = 1.0 / CONTROL_RATE  # s
 BLOW_UP = "the physics blew up; the arm was put back where it was before this step"
 
 
 class Arm:
-    """A planar arm of three joints that track velocities, and objects that stay where they are put.
+    """Simulated planar arm whose three joints track velocities, over a table with objects that do not move.
 
     Attributes:
         model: The compiled scene.
-        data: Its state.
-        hand: Position of the hand, shape (2,), m; a live view.
+        data: The state of the simulation.
+        object_bodies: Mocap numbers of the objects, O of them.
+        hand: Position of the hand, shape (2,), m, table frame; a view that follows the simulation.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        """Take the arm of a scene."""
+        """Start the simulation of a scene that `compile_scene` made."""
         self.model, self.data = model, mujoco.MjData(model)
         self.object_bodies = object_bodies(model)
         self._site = model.site("hand").id
@@ -40,15 +41,15 @@ class Arm:
         self._last_joints: list[float] = self._qpos.tolist()
 
     def place(self, objects: NDArray[np.float64], joints: NDArray[np.float64]) -> None:
-        """Put objects, shape (O, 2), m, and a resting arm, joint angles of shape (3,), rad, in their places."""
+        """Put objects at positions, shape (O, 2), m, and the arm, at rest, to joint angles, shape (3,), rad."""
         self._objects, self._last_joints = objects, joints.tolist()
-        self._put()
+        self._reset()
 
     def track(self, velocities: NDArray[np.float64]) -> str:
         """Track joint velocities, shape (3,), rad/s, for one control step, stopping at the joints' limits.
 
         Returns:
-            What went wrong; empty if nothing. The arm is then put back where it was.
+            `BLOW_UP` if the physics failed, and the arm is back where it was before the step; else an empty string.
         """
         self._ctrl[:] = velocities
         # Few joints are at a limit: to look at each as a number is faster than to clip them all as arrays.
@@ -58,7 +59,7 @@ class Arm:
                 self._ctrl[number] = min(max(velocity, (low - joint) * CONTROL_RATE), (high - joint) * CONTROL_RATE)
         mujoco.mj_step(self.model, self.data, SUBSTEPS)
         if self._warnings.tolist() != self._already_logged:
-            self._put()
+            self._reset()
             return BLOW_UP
         # What mj_step leaves behind was computed before its last integration.
         mujoco.mj_kinematics(self.model, self.data)
@@ -76,7 +77,8 @@ class Arm:
             "joint_velocities": self._qvel.copy(),
         }
 
-    def _put(self) -> None:
+    def _reset(self) -> None:
+        """Put objects and resting arm back to where they were last."""
         mujoco.mj_resetData(self.model, self.data)
         self._warnings[:] = self._already_logged
         self.data.qpos[:] = self._last_joints

@@ -9,17 +9,24 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit_envs.arm.scene import MAX_JOINT_SPEED, POSTURE_COST, home_posture
+from signimit_envs.arm.scene import (
+    MAX_JOINT_SPEED,
+    POSTURE_COST,
+    POSTURE_ITERATIONS,
+    POSTURE_STRIDE,
+    POSTURE_TOLERANCE,
+    home_posture,
+)
 
-_SOLVER = "daqp"
+_SOLVER = "daqp"  # of qpsolvers: exact for problems of three unknowns, and installed with mink
 
 
 class JointCommand(NamedTuple):
-    """Joint velocities, and what they leave undone.
+    """Joint velocities, and the displacement of the hand that they miss.
 
     Attributes:
         velocities: Joint velocities, shape (3,), rad/s.
-        residual: How much of the wanted displacement of the hand they leave undone, m.
+        residual: Length of the part of the wanted displacement that they miss, m.
     """
 
     velocities: NDArray[np.float64]
@@ -27,7 +34,7 @@ class JointCommand(NamedTuple):
 
 
 class HandController:
-    """Solves for joint velocities that move the hand, within the limits of joints and drives.
+    """Hand controller: solves for joint velocities that move the hand, within the limits of joints and drives.
 
     The target is one control step ahead of the actual hand: a step that is over in one step needs no gain, and a
     target so near keeps its direction when a velocity limit binds.
@@ -57,7 +64,7 @@ class HandController:
             dt: Time for it, s.
 
         Returns:
-            The command; where the arm cannot do it all, the nearest it can, with a residual above 0.
+            The joint command; beyond the arm's limits the nearest feasible one, with a residual above 0.
         """
         self._configuration.update(np.minimum(np.maximum(joints, self._lower), self._upper))
         pose = self._configuration.get_transform_frame_to_world("hand", "site").wxyz_xyz.copy()
@@ -72,23 +79,23 @@ class HandController:
         return JointCommand(velocities, float(np.sqrt(left @ left)))
 
     def posture_at(self, hand: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
-        """Find the joint angles that put the hand somewhere, in the arm's usual posture.
+        """Find joint angles that put the hand at a position, near the arm's home posture.
 
         Args:
             hand: Position, shape (2,), m, table frame.
 
         Returns:
-            Joint angles, shape (3,), rad, and the distance that is left, m.
+            Joint angles, shape (3,), rad, and the remaining distance of the hand from the position, m.
         """
         joints = home_posture(self._model)
-        for _ in range(60):
+        for _ in range(POSTURE_ITERATIONS):
             self._configuration.update(joints)
             away = hand - self._data.site_xpos[self._site][:2]
-            # At most 5 cm a step: the arm is far from linear over more. A second is time enough for any drive.
-            stride = away * min(1.0, 0.05 / max(1e-12, float(np.hypot(*away))))
+            # A second a step is time enough for any drive.
+            stride = away * min(1.0, POSTURE_STRIDE / max(1e-12, float(np.hypot(*away))))
             change = self.solve(joints, stride, 1.0).velocities
             joints = joints + change
-            if np.abs(change).max() < 1e-9:
+            if np.abs(change).max() < POSTURE_TOLERANCE:
                 break
         self._configuration.update(joints)
         return joints, float(np.hypot(*(hand - self._data.site_xpos[self._site][:2])))

@@ -16,9 +16,9 @@ from signimit.policies import CONTROL_PERIOD, run_policy
 from signimit.policies.closed_loop import count_steps
 from signimit.teaching.languages import PAPER_LANGUAGE, Language
 from signimit.teaching.sessions import Command
+from signimit_envs.arm.scene import hand_action
 from signimit_envs.recording.episodes import Recording
 from signimit_envs.recording.recorder import EpisodeRecorder
-from signimit_envs.sessions.reproduction import hand_action
 
 ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, Policy, run_policy
-from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED
+from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, hand_action
 from signimit_envs.tabletop.env import TabletopEnv
 
 
@@ -71,17 +71,3 @@ def reproduce(
 
     path = run_policy(policy, arm.hand, seconds, step_arm)
     return HandTrack(path, np.array(commanded).reshape(-1, 2))
-
-
-def hand_action(velocity: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the actions with ``control="hand"`` for velocities of hands, both of shape (..., 2), m/s.
-
-    A velocity beyond the arm's is slowed down as a whole, so that its direction stays.
-
-    Raises:
-        InvalidInputError: If they are of another shape.
-    """
-    if velocity.shape[-1:] != (2,):
-        raise InvalidInputError("policy", "velocities along x and y", f"shape {velocity.shape}")
-    action: NDArray[np.float64] = velocity / np.maximum(MAX_HAND_SPEED, np.abs(velocity).max(axis=-1, keepdims=True))
-    return action

@@ -1,4 +1,4 @@
-"""Films of a session: its story, and one answer to every pair of signs at once."""
+"""Films of a session: all of it in order, or one reproduction of every request side by side."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.sessions.session import Reproduction, SessionResult
 from signimit_envs.video.overlays import draw_caption, draw_card, draw_label, draw_signs
 from signimit_envs.video.scene_renderer import SceneRenderer
-from signimit_envs.video.storyboard import STRIDE, Shot, tell_story
+from signimit_envs.video.storyboard import STRIDE, Shot, show_session
 
 Frame = NDArray[np.uint8]
 SCENE_SIZE, SIGNS_WIDTH, CAPTION_HEIGHT = (640, 480), 320, 64  # pixels
-TILE = 320  # pixels
-GRID_SECONDS = 8.0
+TILE = 320  # pixels, side of a reproduction's picture in the grid
+GRID_SECONDS = 8.0  # simulated time that the grid shows at most
 
 
 class Film(NamedTuple):
-    """A film that is drawn while it is watched.
+    """Frames of a film, drawn one by one as they are taken.
 
     Attributes:
-        frames: Its frames, each (height, width, 3); a `RenderingError` comes with the first if there is no OpenGL.
-        length: How many there will be.
+        frames: Frames, each (height, width, 3); taking the first raises a `RenderingError` if there is no OpenGL.
+        length: Number of frames.
     """
 
     frames: Iterator[Frame]
@@ -36,17 +36,17 @@ class Film(NamedTuple):
 
 
 def film_story(result: SessionResult) -> Film:
-    """Film the story of a session."""
-    return film_shots(list(tell_story(result)), result.plan.language.objects)
+    """Film a session: demonstrations, what was understood, and reproductions."""
+    return film_shots(list(show_session(result)), result.plan.language.objects)
 
 
 def film_shots(shots: Sequence[Shot], objects: int) -> Film:
-    """Film shots of scenes with so many objects, in frames of shape (544, 960, 3)."""
+    """Film shots of scenes with ``objects`` objects, in frames of shape (544, 960, 3)."""
     return Film(_draw_shots(shots, objects), len(shots))
 
 
 def film_grid(result: SessionResult) -> Film:
-    """Film the first answer to every pair of signs, all at once, rows movements and columns objects."""
+    """Film the first reproduction of every request side by side: rows are movements, columns objects."""
     first: dict[Request, Reproduction] = {}
     for reproduction in result.reproductions:
         first.setdefault(reproduction.command.request, reproduction)
@@ -56,31 +56,32 @@ def film_grid(result: SessionResult) -> Film:
 
 
 def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
-    with closing(SceneRenderer(objects, *SCENE_SIZE)) as stage:
+    with closing(SceneRenderer(objects, *SCENE_SIZE)) as renderer:
         for shot in shots:
-            yield draw_shot(shot, stage)
+            yield draw_shot(shot, renderer)
 
 
 def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
-    """Draw frame by frame where the hands are after each of ``ends`` control steps."""
-    with closing(SceneRenderer(language.objects, TILE, TILE)) as stage:
+    """Draw the grid, one frame for each number of control steps in ``ends``."""
+    with closing(SceneRenderer(language.objects, TILE, TILE)) as renderer:
         for end in ends:
-            tiles = [_draw_tile(r, end, language, stage) for r in reproductions]
+            tiles = [_draw_tile(r, end, language, renderer) for r in reproductions]
             rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
             yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
 
 
-def draw_shot(shot: Shot, stage: SceneRenderer) -> Frame:
+def draw_shot(shot: Shot, renderer: SceneRenderer) -> Frame:
     """Draw a shot: signs to the left, the scene to the right, the caption below."""
     width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
     caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
     if shot.card:
         return np.vstack([draw_card((width, height), shot.card), caption])
     signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
-    return np.vstack([np.hstack([signs, stage.picture(shot, "perspective")]), caption])
+    return np.vstack([np.hstack([signs, renderer.picture(shot, "perspective")]), caption])
 
 
-def _draw_tile(reproduction: Reproduction, end: int, language: Language, stage: SceneRenderer) -> Frame:
+def _draw_tile(reproduction: Reproduction, end: int, language: Language, renderer: SceneRenderer) -> Frame:
+    """Draw a reproduction after ``end`` control steps, seen from above, labelled with its request and signs."""
     command = reproduction.command
     shot = Shot(
         phase="D",
@@ -93,4 +94,4 @@ def _draw_tile(reproduction: Reproduction, end: int, language: Language, stage: 
     lines = [f"{language.movements[movement]}, {object_name(focus)}"]
     if unseen := command.request not in language.seen:
         lines.append("never demonstrated")
-    return draw_label(stage.picture(shot, "top"), lines, command.signs, framed=unseen)
+    return draw_label(renderer.picture(shot, "top"), lines, command.signs, framed=unseen)

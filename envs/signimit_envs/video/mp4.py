@@ -1,4 +1,4 @@
-"""Video files, written as the frames come, and there only when whole."""
+"""Video files (mp4, H.264), written frame by frame; a file appears under its name only when it is whole."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def write_video(path: str | os.PathLike[str], frames: Iterable[NDArray[np.uint8]
     """Write frames to an mp4 file (H.264) that appears under its name when the last one is in.
 
     Args:
-        path: The file; one that is there is replaced.
+        path: The file; an existing one is replaced.
         frames: Each of shape (height, width, 3), all alike, sides even.
         rate: Frames per second.
 
@@ -42,11 +42,11 @@ def open_video(path: str | os.PathLike[str], rate: float = CONTROL_RATE) -> Iter
     """Open an mp4 file (H.264) for frames that come one by one; it appears under its name when the block is left.
 
     Args:
-        path: The file; one that is there is replaced.
+        path: The file; an existing one is replaced.
         rate: Frames per second.
 
     Yields:
-        What takes the frames.
+        The stream that takes the frames.
 
     Raises:
         InvalidInputError: If no frame came, or the file is not to be an mp4; nothing is left behind then.
@@ -61,27 +61,34 @@ def open_video(path: str | os.PathLike[str], rate: float = CONTROL_RATE) -> Iter
 
 
 class VideoStream:
-    """Encodes frames into a file as they come.
+    """Encoder of a video file; frames are added one by one.
 
     Attributes:
-        count: How many came.
+        count: Number of frames so far.
     """
 
     def __init__(self, path: Path, rate: float) -> None:
-        """Remember where to; the first frame decides the size."""
+        """Encode into a file, ``rate`` frames per second; the first frame decides the size."""
         self._path, self._rate, self.count = path, rate, 0
         self._shape: tuple[int, ...] = ()
         self._writer: Generator[None, NDArray[np.uint8] | None, None] | None = None
 
     def add(self, frame: NDArray[np.uint8]) -> None:
-        """Take the next frame, shape (height, width, 3).
+        """Encode the next frame, shape (height, width, 3), uint8.
 
         Raises:
-            InvalidInputError: If it is no such frame, or not like the first.
+            InvalidInputError: If it has another shape or type, odd sides, or another size than the first.
         """
-        _check(frame, self._shape or frame.shape)
+        even = frame.ndim == 3 and frame.shape[2] == 3 and frame.shape[0] % 2 == frame.shape[1] % 2 == 0
+        if not even or frame.shape != (self._shape or frame.shape) or frame.dtype != np.uint8:
+            expected = "frames (height, width, 3) of bytes, all alike, sides even"
+            raise InvalidInputError("video", expected, f"{frame.dtype} of shape {frame.shape}")
         if self._writer is None:
-            self._shape, self._writer = frame.shape, self._open(frame.shape)
+            self._shape, size = frame.shape, (frame.shape[1], frame.shape[0])
+            self._writer = imageio_ffmpeg.write_frames(
+                str(self._path), size, fps=self._rate, quality=7, macro_block_size=2, ffmpeg_log_level="error"
+            )
+            self._writer.send(None)  # starts ffmpeg
         self._writer.send(np.ascontiguousarray(frame))
         self.count += 1
 
@@ -90,18 +97,3 @@ class VideoStream:
         if self._writer is not None:
             self._writer.close()
             self._writer = None
-
-    def _open(self, shape: tuple[int, ...]) -> Generator[None, NDArray[np.uint8] | None, None]:
-        size = shape[1], shape[0]
-        writer: Generator[None, NDArray[np.uint8] | None, None] = imageio_ffmpeg.write_frames(
-            str(self._path), size, fps=self._rate, quality=7, macro_block_size=2, ffmpeg_log_level="error"
-        )
-        writer.send(None)
-        return writer
-
-
-def _check(frame: NDArray[np.uint8], shape: tuple[int, ...]) -> None:
-    even = frame.ndim == 3 and frame.shape[2] == 3 and frame.shape[0] % 2 == frame.shape[1] % 2 == 0
-    if not even or frame.shape != shape or frame.dtype != np.uint8:
-        expected = "frames (height, width, 3) of bytes, all alike, sides even"
-        raise InvalidInputError("video", expected, f"{frame.dtype} of shape {frame.shape}")

@@ -1,4 +1,4 @@
-"""The flat parts of a film's frames: captions, cards, and signs as they are drawn."""
+"""Two-dimensional parts of a film's frames: captions, cards, labels, and signs as they are drawn."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from signimit import paths
 
-PAPER, INK, FAINT, MARK = (250, 249, 246), (27, 27, 27), (200, 198, 192), (230, 159, 0)
+PAPER, INK, FAINT, MARK = (250, 249, 246), (27, 27, 27), (200, 198, 192), (230, 159, 0)  # red, green, blue
 Signs = Sequence[NDArray[np.float64]]
 
 
@@ -21,7 +21,7 @@ def draw_signs(size: tuple[int, int], signs: Signs, complete: Signs) -> NDArray[
     Args:
         size: Width and height, pixels.
         signs: The signs as far as they are drawn, each (T, 2), y up, any unit.
-        complete: All signs as they will be in the end; each fills its part of the picture.
+        complete: The complete signs; each is scaled to fill its part of the picture.
 
     Returns:
         Shape (height, width, 3).
@@ -46,7 +46,7 @@ def draw_sign(
     sign: NDArray[np.float64],
     whole: NDArray[np.float64],
 ) -> None:
-    """Draw a sign as far as it goes, scaled so that the whole of it fills a square about ``centre``, pixels."""
+    """Draw part of a sign, scaled so that the whole sign fills a square about ``centre``, pixels."""
     scale = half_size / max(paths.half_size(whole), 1e-12)
     places = (sign - paths.box_centre(whole)) * (scale, -scale) + centre
     pen = max(2, round(half_size / 14))
@@ -61,7 +61,7 @@ def draw_sign(
 
 
 def draw_caption(size: tuple[int, int], phase: str, caption: str) -> NDArray[np.uint8]:
-    """Draw a line of text, a phase's letter in a disc before it, shape (height, width, 3)."""
+    """Draw a caption, with the phase's letter in a disc before it, shape (height, width, 3)."""
     width, height = size
     image = Image.new("RGB", size, INK)
     draw = ImageDraw.Draw(image)
@@ -77,7 +77,7 @@ def draw_caption(size: tuple[int, int], phase: str, caption: str) -> NDArray[np.
 
 
 def draw_card(size: tuple[int, int], lines: Sequence[str]) -> NDArray[np.uint8]:
-    """Draw lines of text on an empty page, the first as a heading, shape (height, width, 3)."""
+    """Draw a card: lines of text on an empty page, the first as a heading, shape (height, width, 3)."""
     image = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(image)
     step = min(40, (size[1] - 80) // max(1, len(lines)))
@@ -88,7 +88,7 @@ def draw_card(size: tuple[int, int], lines: Sequence[str]) -> NDArray[np.uint8]:
 
 
 def draw_label(picture: NDArray[np.uint8], lines: Sequence[str], signs: Signs, framed: bool) -> NDArray[np.uint8]:
-    """Write lines and small signs across the top of a picture, and frame it if it is special."""
+    """Write lines and small signs across the top of a picture, (height, width, 3); ``framed`` adds a thick frame."""
     image = Image.fromarray(picture)
     draw = ImageDraw.Draw(image)
     width, height = image.size
@@ -112,7 +112,7 @@ def font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
 
 
 def fitting_font(text: str, width: float, size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
-    """Return the font in the largest size up to ``size`` in which a text is not wider than ``width``, pixels."""
+    """Return the font in the largest size, from 8 to ``size``, in which a text fits ``width`` pixels."""
     while size > 8 and font(size).getlength(text) > width:
         size -= 1
     return font(size)

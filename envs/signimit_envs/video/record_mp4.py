@@ -1,4 +1,4 @@
-"""A Gymnasium wrapper that films episodes, one mp4 file each, as they happen."""
+"""Gymnasium wrapper that films episodes, one mp4 file each."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class RecordMp4(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         """Make the folder.
 
         Args:
-            env: What to film.
-            folder: Where ``episode-0000.mp4`` and so on go; files of these names are replaced.
+            env: Environment to film.
+            folder: Folder of the files ``episode-0000.mp4`` and so on; files of these names are replaced.
             every: Film one in so many episodes, beginning with the first.
             prefix: How the names begin.
 
@@ -53,7 +53,7 @@ class RecordMp4(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         self._video: VideoStream | None = None
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Finish the last episode's file and start an episode, as the environment does."""
+        """Finish the file of the last episode and start an episode; arguments and results are the environment's."""
         self._finish()
         result = self.env.reset(seed=seed, options=options)
         if self._episodes % self._every == 0:
@@ -65,7 +65,7 @@ class RecordMp4(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         return result
 
     def step(self, action: Any) -> tuple[Any, SupportsFloat, bool, bool, dict[str, Any]]:
-        """Do a step, as the environment does."""
+        """Do a control step; arguments and results are the environment's."""
         result = self.env.step(action)
         if self._video is not None:
             frame: Any = self.env.render()

@@ -1,4 +1,4 @@
-"""Pictures of the scene, with a display or without one."""
+"""Rendering with OpenGL: choice of a backend, pictures as arrays, and a window where there is a display."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from signimit import InvalidInputError
 from signimit_envs.exceptions import RenderingError
 
 INSTALL = "On Debian or Ubuntu: apt-get install -y libosmesa6 (or libegl1 libgl1-mesa-dri)."
-_PROBE = (
+_PROBE = (  # program that ends well where a backend works
     "import mujoco\n"
     "renderer = mujoco.Renderer(mujoco.MjModel.from_xml_string('<mujoco/>'), 16, 16)\n"
     "renderer.update_scene(mujoco.MjData(renderer.model))\n"
     "renderer.render(); renderer.close()"
 )
-_PROBE_SECONDS = 60
+_PROBE_SECONDS = 60  # then the backend counts as broken
 
 
 def has_display() -> bool:
@@ -33,7 +33,7 @@ def has_display() -> bool:
 
 
 def choose_backend() -> str:
-    """Choose what draws: the user's MUJOCO_GL, else the first of glfw, egl and osmesa that works here.
+    """Choose the OpenGL backend: the user's MUJOCO_GL, else the first of glfw, egl and osmesa that works here.
 
     Returns:
         Name of the backend; empty where MuJoCo's own choice is right (macOS, Windows).
@@ -64,6 +64,7 @@ def _first_working_backend() -> str:
 
 
 def _works(backend: str) -> bool:
+    """Tell whether a backend renders a picture in a process of its own."""
     environment = {**os.environ, "MUJOCO_GL": backend}
     command = [sys.executable, "-c", _PROBE]
     try:
@@ -73,7 +74,7 @@ def _works(backend: str) -> bool:
     return done.returncode == 0
 
 
-def _select(backend: str) -> None:
+def _use_backend(backend: str) -> None:
     """Make MuJoCo's renderers use a backend that was not named in MUJOCO_GL.
 
     Setting MUJOCO_GL would come too late, MuJoCo reads it as it is imported; its own switch is a private one.
@@ -92,18 +93,18 @@ def _select(backend: str) -> None:
 
 
 class OffscreenView:
-    """Draws frames into arrays. OpenGL is looked for at the first frame, not before."""
+    """Offscreen renderer: pictures of a model as arrays. OpenGL is looked for at the first picture, not before."""
 
     def __init__(self, model: mujoco.MjModel, width: int = 480, height: int = 480) -> None:
-        """Remember what to draw, and how large, in pixels.
+        """Draw a model in pictures of a size, pixels.
 
         Raises:
-            InvalidInputError: If that is nothing, or more than the model allows (1280 each way).
+            InvalidInputError: If a side is less than 1, or more than the model allows (1280).
         """
-        most = (int(model.vis.global_.offwidth), int(model.vis.global_.offheight))
-        if not (0 < width <= most[0] and 0 < height <= most[1]):
+        limits = (int(model.vis.global_.offwidth), int(model.vis.global_.offheight))
+        if not (0 < width <= limits[0] and 0 < height <= limits[1]):
             raise InvalidInputError(
-                "size of frames", f"1 to {most[0]} by 1 to {most[1]} pixels", f"{width} by {height}"
+                "size of frames", f"1 to {limits[0]} by 1 to {limits[1]} pixels", f"{width} by {height}"
             )
         self._model, self._width, self._height = model, width, height
         self._renderer: mujoco.Renderer | None = None
@@ -118,9 +119,9 @@ class OffscreenView:
         """Draw one frame.
 
         Args:
-            data: The state to draw.
+            data: State of the model.
             camera: ``"perspective"`` or ``"top"``.
-            decorate: May add geometry to the scene before it is drawn, e.g. a trail.
+            decorate: Adds geometry to the scene before it is drawn, e.g. a trail.
 
         Returns:
             Shape (height, width, 3), red, green, blue.
@@ -136,24 +137,24 @@ class OffscreenView:
 
     def _open(self) -> mujoco.Renderer:
         backend = choose_backend()
-        _select(backend)
+        _use_backend(backend)
         try:
             self._renderer = mujoco.Renderer(self._model, self._height, self._width)
         except (mujoco.FatalError, ImportError, RuntimeError, AttributeError) as error:
             raise RenderingError(f"OpenGL through {backend or 'the system'} failed ({error})", INSTALL) from error
-        # Also when nobody closes the view: a renderer that outlives the interpreter complains.
+        # Also freed when the view is not closed: a renderer that outlives the interpreter prints an error.
         self._free = weakref.finalize(self, self._renderer.close)
         return self._renderer
 
     def close(self) -> None:
-        """Free what OpenGL holds; may be called again."""
+        """Free the OpenGL context; may be called again."""
         if self._free is not None:
             self._free()
         self._renderer = self._free = None
 
 
 def renderer_name() -> str:
-    """Return what OpenGL calls itself, e.g. ``"llvmpipe (LLVM 15)"``.
+    """Return the name of OpenGL's renderer, e.g. ``"llvmpipe (LLVM 15)"``.
 
     Raises:
         RenderingError: If there is no OpenGL.
@@ -169,10 +170,10 @@ def renderer_name() -> str:
 
 
 class WindowView:
-    """Shows the scene in MuJoCo's interactive viewer."""
+    """Window of MuJoCo's interactive viewer."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
-        """Remember what to show.
+        """Show a model; the window opens at the first `show`.
 
         Raises:
             RenderingError: If there is no display. The viewer itself would end the process.

@@ -1,8 +1,7 @@
-"""The scene as a film shows it: the arm as it was, the objects, a person's hand, and trails on the table."""
+"""Renderer of the scene in films: arm, objects, the demonstrator's hand, and trails on the table."""
 
 from __future__ import annotations
 
-import functools
 import itertools
 
 import mujoco
@@ -13,25 +12,25 @@ from signimit_envs.arm.scene import compile_scene, object_bodies
 from signimit_envs.video.rendering import OffscreenView
 from signimit_envs.video.storyboard import Shot
 
-ROBOT_TRAIL = (0.07, 0.07, 0.09, 1.0)
+ROBOT_TRAIL = (0.07, 0.07, 0.09, 1.0)  # rgba
 HUMAN_TRAIL = (0.42, 0.13, 0.52, 1.0)
 _TRAIL_HEIGHT, _TRAIL_RADIUS = 0.005, 0.0045  # m
-_HUMAN_HAND = 0.028  # m, radius
-_LONGEST = 240  # segments of a trail; more are thinned out
+_HAND_RADIUS = 0.028  # m, of the ball that stands for the demonstrator's hand
+_MAX_SEGMENTS = 240  # of a trail; longer ones are thinned out, since a scene holds a limited number of geometries
 
 
 class SceneRenderer:
-    """Draws shots of one scene. Close it when done."""
+    """Renderer of the scenes of shots with one number of objects."""
 
     def __init__(self, objects: int, width: int, height: int) -> None:
-        """Build the scene; OpenGL is looked for at the first picture."""
+        """Compile the scene for pictures of a size, pixels; OpenGL is looked for at the first picture."""
         self._model = compile_scene(objects)
         self._data = mujoco.MjData(self._model)
         self._bodies = object_bodies(self._model)
         self._view = OffscreenView(self._model, width, height)
 
     def picture(self, shot: Shot, camera: str) -> NDArray[np.uint8]:
-        """Draw the scene of a shot, shape (height, width, 3).
+        """Draw the scene of a shot through ``"perspective"`` or ``"top"``, shape (height, width, 3).
 
         Raises:
             RenderingError: If there is no OpenGL.
@@ -40,25 +39,24 @@ class SceneRenderer:
         self._data.mocap_pos[self._bodies, :2] = shot.objects
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_camlight(self._model, self._data)
-        return self._view.frame(self._data, camera, functools.partial(_decorate, shot))
+
+        def decorate(scene: mujoco.MjvScene) -> None:
+            add_trail(scene, shot.trail, HUMAN_TRAIL if shot.phase in ("A", "B") else ROBOT_TRAIL)
+            if shot.human_hand is not None:
+                add_ball(scene, shot.human_hand, _HAND_RADIUS, HUMAN_TRAIL)
+
+        return self._view.frame(self._data, camera, decorate)
 
     def close(self) -> None:
-        """Free what OpenGL holds; may be called again."""
+        """Free the OpenGL context; may be called again."""
         self._view.close()
 
 
-def _decorate(shot: Shot, scene: mujoco.MjvScene) -> None:
-    person = shot.phase in ("A", "B")
-    add_trail(scene, shot.trail, HUMAN_TRAIL if person else ROBOT_TRAIL)
-    if shot.human_hand is not None:
-        add_ball(scene, shot.human_hand, _HUMAN_HAND, HUMAN_TRAIL)
-
-
 def add_trail(scene: mujoco.MjvScene, points: NDArray[np.float64], colour: tuple[float, ...]) -> None:
-    """Add a line through points of the table, shape (T, 2), m, to a scene that is about to be drawn."""
+    """Add a line through points on the table, shape (T, 2), m, to a scene before it is drawn."""
     if len(points) < 2:
         return
-    kept = points[np.unique(np.linspace(0, len(points) - 1, _LONGEST + 1).astype(int))]
+    kept = points[np.unique(np.linspace(0, len(points) - 1, _MAX_SEGMENTS + 1).astype(int))]
     corners = np.column_stack([kept, np.full(len(kept), _TRAIL_HEIGHT)])
     for start, end in itertools.pairwise(corners):
         geom = _new_geom(scene, mujoco.mjtGeom.mjGEOM_CAPSULE, colour)
@@ -68,7 +66,7 @@ def add_trail(scene: mujoco.MjvScene, points: NDArray[np.float64], colour: tuple
 
 
 def add_ball(scene: mujoco.MjvScene, place: NDArray[np.float64], radius: float, colour: tuple[float, ...]) -> None:
-    """Add a ball that rests on the table at a place, shape (2,), m."""
+    """Add a ball that rests on the table at a place, shape (2,), m, to a scene before it is drawn."""
     geom = _new_geom(scene, mujoco.mjtGeom.mjGEOM_SPHERE, colour)
     if geom is not None:
         geom.size[:] = radius

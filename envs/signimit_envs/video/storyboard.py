@@ -1,4 +1,4 @@
-"""The story of a session, shot by shot, as in the paper's figure 1: what is to be seen, before any of it is drawn.
+"""Storyboard of a session: the shots of a film in the phases of the paper's figure 1, not drawn yet.
 
 A: the interactant signs. B: the demonstrator answers. After all demonstrations a card says what the robot understood.
 C: the interactant signs again, in a new scene. D: the robot answers. Demonstrations are numbered from 0, as everywhere.
@@ -19,52 +19,52 @@ from signimit_envs.sessions.session import Answer, Reproduction, SessionResult
 
 FRAME_RATE = 25  # frames/s of a film
 STRIDE = CONTROL_RATE // FRAME_RATE  # control steps a frame
-SIGN_FRAMES = 24  # in which a sign is drawn
-PAUSE_FRAMES = 12
+SIGN_FRAMES = 24  # frames in which a sign is drawn
+PAUSE_FRAMES = 12  # frames after signs and after a demonstration
 CARD_FRAMES = 5 * FRAME_RATE
-HASTE = 8  # how much faster all demonstrations but the first go by
-ANSWER_SECONDS = 6.0
+SPEEDUP = 8  # of all demonstrations but the first
+ANSWER_SECONDS = 6.0  # simulated time of a reproduction that is shown
 PARKED = np.array([-1.9, 2.4, 2.2])  # rad, joint angles of an arm that only watches
-NOWHERE = np.zeros((0, 2))
-for _array in (PARKED, NOWHERE):
+NO_POINTS = np.zeros((0, 2))
+for _array in (PARKED, NO_POINTS):
     _array.setflags(write=False)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shot:
-    """What one frame shows.
+    """Content of one frame of a film.
 
     Attributes:
         phase: A, B, C or D of the paper's figure 1; empty for a card.
-        caption: What happens, in words.
+        caption: Text below the picture.
         signs: The signs as far as they are drawn, each (T, 2), any unit.
-        boxes: The signs when they are complete, for a steady scale.
+        boxes: The complete signs, which fix the scale.
         objects: Object positions, shape (O, 2), m.
         joints: The arm's joint angles, shape (3,), rad.
-        human_hand: Where the demonstrator's hand is, shape (2,), m; None where it is away.
-        trail: Where the hand that acts has been, shape (T, 2), m.
-        card: Lines that are shown instead of the scene.
+        human_hand: Position of the demonstrator's hand, shape (2,), m; None where it is not shown.
+        trail: Path of the moving hand so far, shape (T, 2), m.
+        card: Lines of a card that is shown instead of the scene.
     """
 
     phase: str
     caption: str
     signs: tuple[NDArray[np.float64], ...] = ()
     boxes: tuple[NDArray[np.float64], ...] = ()
-    objects: NDArray[np.float64] = field(default_factory=lambda: NOWHERE)
+    objects: NDArray[np.float64] = field(default_factory=lambda: NO_POINTS)
     joints: NDArray[np.float64] = field(default_factory=lambda: PARKED)
     human_hand: NDArray[np.float64] | None = None
-    trail: NDArray[np.float64] = field(default_factory=lambda: NOWHERE)
+    trail: NDArray[np.float64] = field(default_factory=lambda: NO_POINTS)
     card: tuple[str, ...] = ()
 
 
-def tell_story(result: SessionResult) -> Iterator[Shot]:
-    """Tell a session: its demonstrations, what was understood, and an answer to each pair never demonstrated.
+def show_session(result: SessionResult) -> Iterator[Shot]:
+    """Show a session: demonstrations, what was understood, and a reproduction of each request never demonstrated.
 
-    The answers are the first attempts, obeyed or not.
+    Of several reproductions of a request the first is shown, obeyed or not.
     """
     yield from show_demonstration(result, 0, 1)
     for number in range(1, len(result.session.demonstrations)):
-        yield from show_demonstration(result, number, HASTE)
+        yield from show_demonstration(result, number, SPEEDUP)
     yield from show_card(result)
     asked, shown = set(), result.plan.language.seen
     for reproduction in result.reproductions:
@@ -74,19 +74,19 @@ def tell_story(result: SessionResult) -> Iterator[Shot]:
             yield from show_reproduction(result, reproduction)
 
 
-def show_demonstration(result: SessionResult, number: int, haste: int) -> Iterator[Shot]:
-    """Show the signs being made (A) and the demonstrator's answer (B), ``haste`` times faster than they were."""
+def show_demonstration(result: SessionResult, number: int, speedup: int) -> Iterator[Shot]:
+    """Show the signs being made (A) and the demonstrator's answer (B), ``speedup`` times faster than they were."""
     demonstrations = result.session.demonstrations
     title = f"Demonstration {number} (0 to {len(demonstrations) - 1})" + (
-        f", {haste} times faster" if haste > 1 else ""
+        f", {speedup} times faster" if speedup > 1 else ""
     )
-    yield from show_exchange(demonstrations[number], title, haste)
+    yield from show_exchange(demonstrations[number], title, speedup)
 
 
-def show_exchange(demonstration: Demonstration, title: str, haste: int = 1) -> Iterator[Shot]:
+def show_exchange(demonstration: Demonstration, title: str, speedup: int = 1) -> Iterator[Shot]:
     """Show a demonstration under a title: the signs being made (A), then the demonstrator's answer (B)."""
     scene = Shot(phase="A", caption=f"{title}: the interactant signs", objects=demonstration.objects)
-    yield from _signing(scene, demonstration.signs, haste)
+    yield from _signing(scene, demonstration.signs, speedup)
     scene = replace(
         scene,
         phase="B",
@@ -94,13 +94,13 @@ def show_exchange(demonstration: Demonstration, title: str, haste: int = 1) -> I
         signs=demonstration.signs,
         boxes=demonstration.signs,
     )
-    for end in _ends(len(demonstration.hand), STRIDE * haste):
+    for end in _ends(len(demonstration.hand), STRIDE * speedup):
         yield replace(scene, human_hand=demonstration.hand[end - 1], trail=demonstration.hand[:end])
-    yield from [replace(scene, trail=demonstration.hand)] * (PAUSE_FRAMES // haste)
+    yield from [replace(scene, trail=demonstration.hand)] * (PAUSE_FRAMES // speedup)
 
 
 def show_card(result: SessionResult) -> Iterator[Shot]:
-    """Show what the robot understood, as told by its model."""
+    """Show a card with what the robot understood: the groups of movements and the word order of its model."""
     model = result.model
     order = model.word_order
     groups = [", ".join(str(t) for t in movement.members) for movement in model.movements]
@@ -141,17 +141,17 @@ def show_answer(
         yield replace(scene, joints=answer.joints[end - 1], trail=answer.path[:end])
 
 
-def _signing(scene: Shot, signs: Sequence[NDArray[np.float64]], haste: int) -> Iterator[Shot]:
+def _signing(scene: Shot, signs: Sequence[NDArray[np.float64]], speedup: int) -> Iterator[Shot]:
     """Draw the signs one after the other, then pause."""
     done: tuple[NDArray[np.float64], ...] = ()
     scene = replace(scene, boxes=tuple(signs))
     for sign in signs:
-        for end in _ends(len(sign), max(1, round(len(sign) * haste / SIGN_FRAMES))):
+        for end in _ends(len(sign), max(1, round(len(sign) * speedup / SIGN_FRAMES))):
             yield replace(scene, signs=(*done, sign[:end]))
         done = (*done, sign)
-    yield from [replace(scene, signs=done)] * (PAUSE_FRAMES // haste)
+    yield from [replace(scene, signs=done)] * (PAUSE_FRAMES // speedup)
 
 
 def _ends(length: int, stride: int) -> list[int]:
-    """Return how much of a sequence has been seen, frame by frame, ending with all of it."""
+    """Return for each frame how many samples of a sequence are shown; all of them in the last."""
     return [*range(1, length, stride), length]

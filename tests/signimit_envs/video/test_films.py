@@ -18,7 +18,7 @@ from signimit_envs.video.storyboard import (
     Shot,
     show_demonstration,
     show_reproduction,
-    tell_story,
+    show_session,
 )
 
 SIGN = np.array([[0, 0], [1, 2], [3, 1.0]])
@@ -36,12 +36,12 @@ def frames_or_skip(film: Film, count: int) -> list[NDArray[np.uint8]]:
 
 
 def test_the_story_goes_through_the_phases_of_figure_1(result: SessionResult) -> None:
-    phases = [phase for phase, _ in itertools.groupby(shot.phase for shot in tell_story(result))]
+    phases = [phase for phase, _ in itertools.groupby(shot.phase for shot in show_session(result))]
     assert phases == ["A", "B"] * 12 + [""] + ["C", "D"] * 3
 
 
 def test_the_robot_is_asked_what_was_never_demonstrated(result: SessionResult) -> None:
-    asked = dict.fromkeys(s.caption.split(":")[1].strip() for s in tell_story(result) if s.phase == "D")
+    asked = dict.fromkeys(s.caption.split(":")[1].strip() for s in show_session(result) if s.phase == "D")
     assert list(asked) == ["triangle up, red", "triangle down, green", "circle, blue"]
 
 
@@ -69,7 +69,7 @@ def test_the_end_of_an_answer_says_whether_it_was_obeyed(result: SessionResult) 
 
 
 def test_the_card_tells_what_the_model_understood(result: SessionResult) -> None:
-    cards = [shot.card for shot in tell_story(result) if shot.card]
+    cards = [shot.card for shot in show_session(result) if shot.card]
     assert len(cards) == CARD_FRAMES
     assert f"The demonstrator knows {len(result.model.movements)} movements:" in cards[0]
 

@@ -1,4 +1,4 @@
-"""Damped least squares between bounds, for many small problems at once and to the last digit.
+"""Box-constrained damped least squares in closed form, for many small problems at once.
 
 Each problem has one solution, which lies inside the box or on one of its faces. Nearly always it lies inside, so that
 is tried first; for the rest every face is tried, 26 for three unknowns.
@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_ROUNDING = 1e-12  # rad by which a solution on a face may pass the other bounds
+_ROUNDING = 1e-12  # in the unknowns' unit; by so much a solution on a face may pass the other bounds
 
 
 class LeastSquares(NamedTuple):
-    """B problems: minimise |J x - d|² + λ |x - p|² for lower <= x <= upper.
+    """B problems of n unknowns x: minimise |J x - d|² + λ |x - p|² for lower <= x <= upper.
 
     Attributes:
         jacobian: J, shape (2, n, B).
@@ -38,7 +38,7 @@ class LeastSquares(NamedTuple):
     upper: Array
 
     def among(self, chosen: NDArray[np.intp]) -> LeastSquares:
-        """Return some of the problems."""
+        """Return the problems of some numbers, shape (C,)."""
         return LeastSquares(
             jacobian=self.jacobian[..., chosen],
             wanted=self.wanted[:, chosen],
@@ -60,7 +60,7 @@ def solve_box(problem: LeastSquares) -> Array:
 
 
 def _stationary(problem: LeastSquares, start: Array, free: Array | float) -> Array:
-    """Return where the objective is least if only some unknowns may leave their start.
+    """Return the minimum of the objective over some unknowns, the others held at their start.
 
     With F the columns of J that are free, it is start + Fᵀ (F Fᵀ + λ)⁻¹ (d - J start): two by two, however many
     unknowns.
@@ -82,7 +82,7 @@ def _stationary(problem: LeastSquares, start: Array, free: Array | float) -> Arr
 
 
 def _best_face(problem: LeastSquares) -> Array:
-    """Return the least of what is least on each face: the faces' own solutions, where these are within the box."""
+    """Return the best of the faces' minima that lie within the box, shape (n, B)."""
     _, _, preferred, damping, lower, upper = problem
     sides = _faces(len(preferred))
     fixed = np.where(sides < 0, lower, upper)

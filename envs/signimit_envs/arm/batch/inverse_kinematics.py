@@ -1,4 +1,4 @@
-"""From hand velocities to joint velocities, for many arms at once: what mink solves, in closed form."""
+"""Differential inverse kinematics of many arms at once: the problem that mink solves for one, in closed form."""
 
 from __future__ import annotations
 
@@ -10,22 +10,26 @@ from numpy.typing import NDArray
 
 from signimit_envs.arm.batch.box_least_squares import LeastSquares, solve_box
 from signimit_envs.arm.batch.planar_arm import PlanarArm
-from signimit_envs.arm.scene import MAX_JOINT_SPEED, POSTURE_COST
+from signimit_envs.arm.scene import (
+    MAX_JOINT_SPEED,
+    POSTURE_COST,
+    POSTURE_ITERATIONS,
+    POSTURE_STRIDE,
+    POSTURE_TOLERANCE,
+)
 
 Array = NDArray[np.float64]
 
-_DAMPING = 1e-12  # mink's, of all joints
-_GAIN = 0.95  # mink's: of the way to a joint's limit that is allowed in one step
-_STRIDE = 0.05  # m at most in one step towards a posture: the arm is far from linear over more
-_STRIDES, _STILL = 60, 1e-9  # steps at most; rad, a step in which no joint moves more is the last
+_DAMPING = 1e-12  # of all joints; default of mink.solve_ik
+_GAIN = 0.95  # share of the way to a joint's limit that one step may take; default of mink.ConfigurationLimit
 
 
 class JointCommands(NamedTuple):
-    """What the joints of B arms should do.
+    """Joint velocities of B arms, and the displacements of the hands that they miss.
 
     Attributes:
         velocities: Joint velocities, shape (n, B), rad/s.
-        residuals: How much of the wanted displacements of the hands they leave undone, shape (B,), m.
+        residuals: Lengths of the parts of the wanted displacements that they miss, shape (B,), m.
     """
 
     velocities: Array
@@ -33,7 +37,7 @@ class JointCommands(NamedTuple):
 
 
 class ManyHandsController:
-    """Solves for joint velocities that move many hands, within the limits of joints and drives.
+    """Controller of many hands: joint velocities that move them, within the limits of joints and drives.
 
     Every arm has the problem that `signimit_envs.arm.inverse_kinematics.HandController` gives to mink: its hand's
     displacement and, at a small cost, its posture. What an arm is told does not depend on the others, to
@@ -53,7 +57,7 @@ class ManyHandsController:
             dt: Time for them, s.
 
         Returns:
-            The commands; where an arm cannot do it all, the nearest it can, with a residual above 0.
+            The joint commands; beyond an arm's limits the nearest feasible one, with a residual above 0.
         """
         arm = self.arm
         inside = joints.clip(arm.lower, arm.upper)
@@ -73,22 +77,22 @@ class ManyHandsController:
         return JointCommands(turns / dt, np.sqrt(left_x * left_x + left_y * left_y))
 
     def postures_at(self, hands: Array) -> tuple[Array, Array]:
-        """Find the joint angles that put hands somewhere, in the arm's usual posture.
+        """Find joint angles that put hands at positions, near the arm's home posture.
 
         Args:
             hands: Positions, shape (2, B), m, table frame.
 
         Returns:
-            Joint angles, shape (n, B), rad, and the distances that are left, shape (B,), m.
+            Joint angles, shape (n, B), rad, and the remaining distances of the hands from the positions, shape (B,), m.
         """
         joints = np.repeat(self.arm.home, hands.shape[1], axis=1)
         moving = np.arange(hands.shape[1])
-        for _ in range(_STRIDES):
+        for _ in range(POSTURE_ITERATIONS):
             away = hands[:, moving] - self.arm.hands(joints[:, moving])
-            strides = away * np.minimum(1.0, _STRIDE / np.maximum(np.hypot(*away), 1e-12))
+            strides = away * np.minimum(1.0, POSTURE_STRIDE / np.maximum(np.hypot(*away), 1e-12))
             turns = self.solve(joints[:, moving], strides, 1.0).velocities
             joints[:, moving] += turns
-            moving = moving[np.abs(turns).max(axis=0) >= _STILL]
+            moving = moving[np.abs(turns).max(axis=0) >= POSTURE_TOLERANCE]
             if not len(moving):
                 break
         return joints, np.hypot(*(hands - self.arm.hands(joints)))

@@ -36,18 +36,18 @@ def compile_arm() -> mujoco.MjModel:
 
 
 class ManyArms:
-    """B arms that track joint velocities, as that of `signimit_envs.TabletopEnv` does.
+    """B simulated arms whose joints track velocities, as the arm of `signimit_envs.TabletopEnv` does.
 
     Arrays have their components first and the B arms last.
     """
 
     def __init__(self, model: mujoco.MjModel, joints: Array, threads: int = 0) -> None:
-        """Put resting arms in their postures.
+        """Start the simulation with arms at rest.
 
         Args:
             model: The arm, or the scene with it.
             joints: Joint angles, shape (n, B), rad.
-            threads: How many threads compute the physics, 0 for all processors.
+            threads: Number of threads that compute the physics; 0 for one a processor.
         """
         self._arm = PlanarArm.from_model(model)
         self._batch = Batch(model, joints.shape[1], threads)
@@ -65,8 +65,8 @@ class ManyArms:
         """Track joint velocities, shape (n, B), rad/s, for one control step, stopping at the joints' limits.
 
         Returns:
-            Joint angles, shape (n, B), rad, and for which arms the physics is sound, shape (B,): others rest where they
-            were before it failed.
+            Joint angles, shape (n, B), rad, and for which arms the physics succeeded, shape (B,); the others rest where
+            they were before the step.
         """
         before = self._qpos.copy()
         room = (self._arm.lower - before) * CONTROL_RATE, (self._arm.upper - before) * CONTROL_RATE
@@ -82,9 +82,9 @@ class ManyArms:
 class QuietLog:
     """Context in which MuJoCo neither prints warnings nor writes MUJOCO_LOG.TXT.
 
-    MuJoCo has one setting for the whole process. The first that enters keeps the usual one and the last that leaves
-    brings it back, so that simulations in several threads do not take each other's silence for it. To enter and leave
-    costs about as much as a physics step: it is for many at once, and `signimit_envs.arm.arm` does without.
+    MuJoCo has one setting for the whole process. The first thread that enters keeps it and the last that leaves
+    restores it, so that simulations in several threads do not restore each other's silence. To enter and leave costs
+    about as much as a physics step: it is for many arms at once, and `signimit_envs.arm.arm` does without.
     """
 
     _lock: ClassVar[Lock] = Lock()
@@ -103,7 +103,7 @@ class QuietLog:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Let MuJoCo log as before, once nobody is inside."""
+        """Let MuJoCo log as before, once all threads have left."""
         with self._lock:
             QuietLog._inside -= 1
             if not QuietLog._inside:

@@ -1,4 +1,4 @@
-"""Where the hands of many planar arms are, without the simulator.
+"""Forward kinematics of many planar arms, without the simulator.
 
 Arrays have their components first and the B arms last, so that every operation runs along the arms.
 """
@@ -20,11 +20,11 @@ class PlanarArm(NamedTuple):
     """A chain of n links in a plane, each turned about its beginning and pointing along y at angle 0.
 
     Attributes:
-        base: Where it begins, shape (2, 1), m, table frame.
-        lengths: Of its links, shape (n, 1), m.
-        lower: Least joint angles, shape (n, 1), rad.
-        upper: Greatest joint angles, shape (n, 1), rad.
-        home: Joint angles that it bends towards, shape (n, 1), rad.
+        base: Position of the first joint, shape (2, 1), m, table frame.
+        lengths: Lengths of the links, shape (n, 1), m.
+        lower: Lower limits of the joint angles, shape (n, 1), rad.
+        upper: Upper limits of the joint angles, shape (n, 1), rad.
+        home: Joint angles of the posture that it prefers, shape (n, 1), rad.
     """
 
     base: Array
@@ -44,7 +44,7 @@ class PlanarArm(NamedTuple):
         return cls(*(np.array(column, dtype=np.float64)[:, None] for column in columns))
 
     def reaches(self, joints: Array) -> Array:
-        """Return the way from each joint to the hand.
+        """Return the vectors from each joint to the hand.
 
         Args:
             joints: Joint angles, shape (n, B), rad.
@@ -62,6 +62,6 @@ class PlanarArm(NamedTuple):
         return reaches
 
     def hands(self, joints: Array) -> Array:
-        """Return where the hands are, shape (2, B), m, table frame, given joint angles of shape (n, B), rad."""
+        """Return the positions of the hands, shape (2, B), m, table frame, given joint angles of shape (n, B), rad."""
         hands: Array = self.base + self.reaches(joints)[:, 0]
         return hands

@@ -1,4 +1,4 @@
-"""One policy for many hands, each with a policy of its own: one that several hands share is stepped once for them."""
+"""The policies of many hands as one policy: those that several hands share are called once for all of them."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class _Group(NamedTuple):
     """Hands that one policy moves.
 
     Attributes:
-        members: Their numbers, shape (G,); that of a lone hand twice, since BLAS adds up a single row in another order
-            than one of many, and what a hand is told should not depend on the others.
-        policy: Of hands (G, 2), m, table frame.
+        members: Numbers of the hands, shape (G,); that of a lone hand twice, since BLAS adds up a single row in another
+            order than one of many, and a hand's velocity should not depend on the number of others.
+        policy: Policy of hands (G, 2), m, table frame.
     """
 
     members: NDArray[np.intp]
@@ -28,13 +28,14 @@ class _Group(NamedTuple):
 
 
 class PolicyBatch(Policy):
-    """The policies of many hands as one, of B hands in the table frame; its state has a state for each policy."""
+    """Policy of B hands in the table frame, each with a policy of its own; its state is a tuple of their states."""
 
     def __init__(self, policies: Sequence[Policy | Callable[[Array], ArrayLike]]) -> None:
-        """Find which hands have the same policy.
+        """Group the hands by their policies.
 
         Args:
-            policies: One a hand; those of a `signimit.Response` are the same if only their objects' places differ.
+            policies: Policies of the hands, B of them; those of a `signimit.Response` are the same if only their
+                objects' places differ.
 
         Raises:
             InvalidInputError: If one is not a policy.
@@ -48,7 +49,11 @@ class PolicyBatch(Policy):
         self._groups, self._count = [], len(policies)
         for numbers in members.values():
             several = numbers if len(numbers) > 1 else 2 * numbers
-            self._groups.append(_Group(np.array(several), _shared([policies[number] for number in several])))
+            shared = policies[several[0]]
+            if isinstance(shared, PlacedPolicy):  # each hand about an object of its own
+                placed = [policies[number] for number in several]
+                shared = shared.at([policy.place for policy in placed if isinstance(policy, PlacedPolicy)])
+            self._groups.append(_Group(np.array(several), as_policy(shared)))
 
     def start(self) -> tuple[Any, ...]:
         """Return the states before the first step."""
@@ -63,23 +68,12 @@ class PolicyBatch(Policy):
         hands, states, velocities = np.asarray(hand), [], np.empty((self._count, 2))
         for group, before in zip(self._groups, state, strict=True):
             after, wanted = group.policy.step(before, hands[group.members])
-            velocities[group.members] = _checked(wanted, group)
+            where, shape = f"policy of reproduction {group.members[0]}", (len(group.members), 2)
+            if wanted.shape != shape:
+                expected = f"velocities of shape {shape} for as many hands"
+                raise InvalidInputError(where, expected, f"shape {wanted.shape}")
+            if not np.isfinite(wanted).all():
+                raise InvalidInputError(where, "finite velocities", f"{wanted[~np.isfinite(wanted)][0]}")
+            velocities[group.members] = wanted
             states.append(after)
         return tuple(states), velocities
-
-
-def _shared(policies: Sequence[Policy | Callable[[Array], ArrayLike]]) -> Policy:
-    """Return one policy for hands that have the same, each about an object of its own."""
-    first = policies[0]
-    if not isinstance(first, PlacedPolicy):
-        return as_policy(first)
-    return first.at([policy.place for policy in policies if isinstance(policy, PlacedPolicy)])
-
-
-def _checked(velocities: Array, group: _Group) -> Array:
-    where, shape = f"policy of reproduction {group.members[0]}", (len(group.members), 2)
-    if velocities.shape != shape:
-        raise InvalidInputError(where, f"velocities of shape {shape} for as many hands", f"shape {velocities.shape}")
-    if not np.isfinite(velocities).all():
-        raise InvalidInputError(where, "finite velocities", f"{velocities[~np.isfinite(velocities)][0]}")
-    return velocities

@@ -1,4 +1,4 @@
-"""Learned policies on many simulated arms at once, one control step of all of them at a time."""
+"""Reproductions on many simulated arms at once, one control step of all arms at a time."""
 
 from __future__ import annotations
 
@@ -13,23 +13,22 @@ from signimit.validation import finite_array, item_list
 from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
 from signimit_envs.arm.batch.physics import ManyArms, QuietLog, compile_arm
 from signimit_envs.arm.batch.policy_batch import PolicyBatch
-from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, WORKSPACE
-from signimit_envs.sessions.reproduction import hand_action
+from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, WORKSPACE, hand_action
 
 Array = NDArray[np.float64]
 
-LONGEST = 3600.0  # s
+MAX_SECONDS = 3600.0  # s, of a reproduction; a longer one is a mistake in the unit
 
 
 class HandTracks(NamedTuple):
-    """How B hands moved.
+    """Reproductions of B hands.
 
     Attributes:
-        paths: Where they were at the start and after every control step, shape (B, T + 1, 2), m, table frame.
-        commanded: Where each control step was to take them from where they were, shape (B, T, 2), m.
+        paths: Positions of the hands at the start and after every control step, shape (B, T + 1, 2), m, table frame.
+        commanded: Position that each control step was to take a hand to, shape (B, T, 2), m.
         joints: Joint angles at the times of the paths, shape (B, T + 1, 3), rad.
-        steps: How many control steps each of them did, shape (B,): T, or less where the physics failed; from then on
-            the hand rests.
+        steps: Number of control steps that each hand did, shape (B,): T, or fewer where the physics failed; from then
+            on the hand rests.
     """
 
     paths: Array
@@ -45,15 +44,15 @@ def reproduce_many(
 
     The paths are those of `signimit_envs.reproduce`, which asks mink for one arm at a time, to within 0.5 mm; only a
     policy that magnifies the last digit, as gmr and ilo-gmr do, may part them, and parts hands that start 1e-12 m
-    beside each other as far. A reproduction among thousands is what it is alone, and the same call gives the same bits.
-    Where the objects are, the policies know.
+    beside each other as far. A reproduction does not depend on the others, and the same call gives the same bits. No
+    objects are simulated: the policies know their positions.
 
     Args:
         policies: One a reproduction, hands (G, 2), m, table frame, to velocities (G, 2), m/s. What `signimit` learns is
             such, with and without a state. One that several reproductions share is called for all of them at once.
-        hands: Where to put the hands, shape (B, 2), m.
-        seconds: How long to go on.
-        threads: How many threads compute the physics, 0 for all processors; the result does not depend on it.
+        hands: Start positions of the hands, shape (B, 2), m.
+        seconds: Duration, s.
+        threads: Number of threads that compute the physics, 0 for one a processor; the result does not depend on it.
 
     Raises:
         InvalidInputError: If there are not as many hands as policies, a hand is out of reach, or a policy commands
@@ -61,8 +60,8 @@ def reproduce_many(
     """
     movers = item_list(policies, "policies")
     starts = _checked_hands(hands, len(movers))
-    if not 0.0 <= seconds <= LONGEST:  # a comparison with NaN is false
-        raise InvalidInputError("seconds", f"0 to {LONGEST:g}", f"{seconds}")
+    if not 0.0 <= seconds <= MAX_SECONDS:  # a comparison with NaN is false
+        raise InvalidInputError("seconds", f"0 to {MAX_SECONDS:g}", f"{seconds}")
     if threads < 0:
         raise InvalidInputError("threads", "0 or more", f"{threads}")
     model, batch = compile_arm(), PolicyBatch(movers)

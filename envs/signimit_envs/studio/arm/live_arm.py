@@ -14,8 +14,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from signimit_envs.arm.scene import CONTROL_RATE, WORKSPACE, object_bodies
-from signimit_envs.sessions.reproduction import hand_action
+from signimit_envs.arm.scene import CONTROL_RATE, WORKSPACE, hand_action, object_bodies
 from signimit_envs.studio.arm.live_state import Array, LiveState, Task, TrackPart
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
