@@ -43,7 +43,12 @@ def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Eng
             first = [_submit(client, b) for b in islice(batches, room)]
             under_way = distributed.as_completed(first, loop=client.loop)
             for future in under_way:
-                yield from _result(future, scheduler)
+                try:
+                    records = future.result()
+                except (distributed.KilledWorker, CancelledError, OSError) as error:
+                    found = f"{type(error).__name__}; what was done is kept, run again to go on"
+                    raise InvalidInputError(f"cluster {scheduler}", "workers that live", found) from None
+                yield from records
                 for following in islice(batches, 1):
                     under_way.add(_submit(client, following))
 
@@ -52,15 +57,6 @@ def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Eng
 
 def _submit(client: Any, batch: list[Task]) -> Any:
     return client.submit(run_batch, batch, pure=False)
-
-
-def _result(future: Any, scheduler: str) -> list[Record]:
-    try:
-        records: list[Record] = future.result()
-    except (distributed.KilledWorker, CancelledError, OSError) as error:
-        found = f"{type(error).__name__}; what was done is kept, run again to go on"
-        raise InvalidInputError(f"cluster {scheduler}", "workers that live", found) from None
-    return records
 
 
 @contextmanager

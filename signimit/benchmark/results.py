@@ -116,8 +116,18 @@ def summarise(file: ResultFile) -> Summary:
     splits = {}
     for name in SPLITS:
         mine = [r for r in records if r["split"] == name]
-        if mine:
-            splits[name] = _summarise_split(name, mine)
+        if not mine:
+            continue
+        stages = {stage: estimate_stage(stage, mine) for stage in STAGES}
+        splits[name] = {
+            "sha256": split_hash(name),
+            "seeds": _ranges([r["seed"] for r in mine]),
+            "sessions": len(mine),
+            "demonstrations": sum(r["demonstrations"] for r in mine),
+            "commands": sum(len(r["obeyed"]) for r in mine),
+            "seconds": round(sum(sum(r["seconds"].values()) for r in mine), 2),
+            "stages": {stage: asdict(estimate) for stage, estimate in stages.items() if estimate is not None},
+        }
     facts = {**file.header, "title": entrant.title, "oracle": isinstance(entrant, Oracle)}
     del facts["splits"]
     return {
@@ -135,19 +145,6 @@ def installed_versions(*packages: str) -> dict[str, str]:
         with suppress(PackageNotFoundError):
             versions[package] = version(package)
     return versions
-
-
-def _summarise_split(name: str, records: Sequence[Record]) -> dict[str, Any]:
-    stages = {stage: estimate_stage(stage, records) for stage in STAGES}
-    return {
-        "sha256": split_hash(name),
-        "seeds": _ranges([r["seed"] for r in records]),
-        "sessions": len(records),
-        "demonstrations": sum(r["demonstrations"] for r in records),
-        "commands": sum(len(r["obeyed"]) for r in records),
-        "seconds": round(sum(sum(r["seconds"].values()) for r in records), 2),
-        "stages": {stage: asdict(estimate) for stage, estimate in stages.items() if estimate is not None},
-    }
 
 
 def records_digest(records: Iterable[Record]) -> str:

@@ -20,7 +20,7 @@ try:
 except ImportError:
     raise MissingDependencyError("matplotlib", "scripts", "Drawing figures") from None
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    pass
 
 HALF_VIEW = 0.28  # m
 CORNERS = HALF_VIEW * np.array([[-0.85, -0.85], [0.85, -0.85], [0.85, 0.85], [-0.85, 0.85]])
@@ -43,27 +43,23 @@ def draw_portraits(policies: Sequence[Policy], lessons: Sequence[ShownMovement])
     axes = figure.subplots(rows, columns, squeeze=False)
     for panel in axes.flat[len(policies) :]:
         panel.set_axis_off()
+    side = np.linspace(-HALF_VIEW, HALF_VIEW, ARROWS)
+    grid: Array = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
     for panel, policy, lesson in zip(axes.flat, policies, lessons, strict=False):
-        _draw_portrait(panel, policy, lesson)
+        for path in lesson.paths:
+            panel.plot(*path.T, color=DEMONSTRATION, linewidth=0.8, zorder=1)
+        velocity = policy(grid)
+        panel.quiver(*grid.T, *velocity.T, color=FIELD, alpha=0.55, scale=9.0, width=0.003, zorder=2)
+        for start, path, colour in zip(
+            CORNERS, np.moveaxis(run_policy(policy, CORNERS, SECONDS), 1, 0), REPRODUCTION, strict=True
+        ):
+            panel.plot(*path.T, color=colour, linewidth=1.0, zorder=3)
+            panel.plot(*start, "o", color=colour, markersize=4, zorder=4)
+        panel.plot(0.0, 0.0, "+", color="black", markersize=6, zorder=5)
+        panel.set(xlim=(-HALF_VIEW, HALF_VIEW), ylim=(-HALF_VIEW, HALF_VIEW), aspect="equal", xticks=[], yticks=[])
+        panel.set_title(lesson.label, fontsize=9)
     figure.suptitle(
         f"{policies[0].kind}: demonstrations (grey), velocity (arrows), {SECONDS:.0f} s from four places (dots)",
         fontsize=10,
     )
     return figure
-
-
-def _draw_portrait(panel: Axes, policy: Policy, lesson: ShownMovement) -> None:
-    for path in lesson.paths:
-        panel.plot(*path.T, color=DEMONSTRATION, linewidth=0.8, zorder=1)
-    side = np.linspace(-HALF_VIEW, HALF_VIEW, ARROWS)
-    grid: Array = np.stack(np.meshgrid(side, side), axis=-1).reshape(-1, 2)
-    velocity = policy(grid)
-    panel.quiver(*grid.T, *velocity.T, color=FIELD, alpha=0.55, scale=9.0, width=0.003, zorder=2)
-    for start, path, colour in zip(
-        CORNERS, np.moveaxis(run_policy(policy, CORNERS, SECONDS), 1, 0), REPRODUCTION, strict=True
-    ):
-        panel.plot(*path.T, color=colour, linewidth=1.0, zorder=3)
-        panel.plot(*start, "o", color=colour, markersize=4, zorder=4)
-    panel.plot(0.0, 0.0, "+", color="black", markersize=6, zorder=5)
-    panel.set(xlim=(-HALF_VIEW, HALF_VIEW), ylim=(-HALF_VIEW, HALF_VIEW), aspect="equal", xticks=[], yticks=[])
-    panel.set_title(lesson.label, fontsize=9)

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.entries.cloning import (
-    Moments,
     collect_moments,
     perceptron_output,
     rectified,
@@ -54,7 +53,13 @@ class PerceptronCloning:
         components = np.linalg.svd(signs - self._mean_sign, full_matrices=False)[2][:COMPONENTS].T
         self._components = components / ((signs @ components).std(axis=0).max() or 1.0)
         codes = (signs - self._mean_sign) @ self._components
-        inputs, outputs = self._training_set(collect_moments(demonstrations), codes, demonstrations.objects)
+        moments = collect_moments(demonstrations)
+        which, hand, velocity = (np.concatenate([part] * COPIES) for part in moments)
+        astray = self._rng.normal(0.0, ASTRAY, hand.shape)
+        astray[: len(moments.hand)] = 0.0  # the first copy is undisturbed
+        code = codes[which] + self._rng.normal(0.0, SIGN_NOISE, (len(which), codes.shape[1]))
+        inputs = _inputs(code, hand + astray, demonstrations.objects[which])
+        outputs = (velocity - PULL * astray) / SPEED
         self._mean, self._scale = inputs.mean(axis=0), inputs.std(axis=0) + 1e-9
         seed = int(self._rng.integers(2**31))
         network = MLPRegressor(
@@ -64,16 +69,6 @@ class PerceptronCloning:
             warnings.simplefilter("ignore", ConvergenceWarning)  # so many epochs are meant
             network.fit((inputs - self._mean) / self._scale, outputs)
         self._layers = list(zip(network.coefs_, network.intercepts_, strict=True))
-
-    def _training_set(
-        self, moments: Moments, codes: NDArray[np.float64], objects: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return inputs and outputs, undisturbed and disturbed."""
-        which, hand, velocity = (np.concatenate([part] * COPIES) for part in moments)
-        astray = self._rng.normal(0.0, ASTRAY, hand.shape)
-        astray[: len(moments.hand)] = 0.0
-        code = codes[which] + self._rng.normal(0.0, SIGN_NOISE, (len(which), codes.shape[1]))
-        return _inputs(code, hand + astray, objects[which]), (velocity - PULL * astray) / SPEED
 
     def begin(self, signs: tuple[NDArray[np.float64], ...], objects: NDArray[np.float64]) -> None:
         """Encode the signs."""

@@ -57,18 +57,14 @@ class Lesson:
         self.people = People(self.language, StrokeSampler(people.signs), StrokeSampler(people.movements))
         self.requests: list[Request] = []
         self.demonstrations: list[Demonstration] = []
-        for request in self._first_requests():
-            self.show(Question(request, self.scenes(1)[0]))
+        # Pairs are random, but each movement and each object comes at least once and as few are shown as can be.
+        many, objects = len(plain.movements), plain.objects
+        movement, focus = (self.rng.permutation(np.arange(max(many, objects)) % n).tolist() for n in (many, objects))
+        for pair in zip(movement, focus, strict=True):
+            self.show(Question(Request(*pair), self.scenes(1)[0]))
         self.commands = [
             (request, self.people.speak(request, self.rng), self.scenes(1)[0]) for request in self.language.requests
         ]
-
-    def _first_requests(self) -> list[Request]:
-        """Pair movements and objects at random so that each comes at least once and as few are shown as can be."""
-        many, objects = len(self.language.movements), self.language.objects
-        count = max(many, objects)
-        movement, focus = (self.rng.permutation(np.arange(count) % n).tolist() for n in (many, objects))
-        return [Request(m, f) for m, f in zip(movement, focus, strict=True)]
 
     def scenes(self, count: int) -> NDArray[np.float64]:
         """Draw scenes, shape (count, O, 2), m."""

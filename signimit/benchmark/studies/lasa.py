@@ -108,7 +108,8 @@ def reproduce(policy: Policy, path: Array, times: Array) -> Array:
 
 def reproduction_error(hand: Array, path: Array) -> ReproductionError:
     """Compare a reproduction with its demonstration, both (n, 2), m, each at 1,000 even times."""
-    ours, theirs = (_even(p) / METRES for p in (hand, path))
+    at = np.linspace(0, 1, SAMPLES)
+    ours, theirs = (interpolate(at, np.linspace(0, 1, len(p)), p) / METRES for p in (hand, path))
     gap = float(np.hypot(*(ours[-1] - theirs[-1])))
     return ReproductionError(swept_area(ours, theirs), dtw_distance(ours, theirs), gap)
 
@@ -119,8 +120,3 @@ def swept_area(a: Array, b: Array) -> float:
     following = np.roll(corners, -1, axis=0)
     twice = corners[..., 0] * following[..., 1] - corners[..., 1] * following[..., 0]
     return float(np.abs(twice.sum(axis=0)).sum() / 2)
-
-
-def _even(path: Array) -> Array:
-    at, known = np.linspace(0, 1, SAMPLES), np.linspace(0, 1, len(path))
-    return interpolate(at, known, path)

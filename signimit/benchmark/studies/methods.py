@@ -139,8 +139,12 @@ BASELINES = (
 
 def infer(distances: SharedDistances, method: str) -> Understanding:
     """Infer by a baseline; methods of clusters are followed by the paper's focus and the ratio's word order."""
-    if method == "chance":
-        return _guess(distances)
+    if method == "chance":  # guesses, knowing how many movements and objects there are
+        rng, truth = np.random.default_rng([distances.seed, 7]), distances.session.truth
+        count, language = len(truth.movement), truth.language
+        order = WordOrder(*rng.permutation(language.words)[:2].tolist())
+        labels = rng.integers(0, len(language.movements), count)
+        return Understanding(canonical_labels(labels), rng.integers(0, language.objects, count), order)
     name = method.removesuffix(", traces")
     table = distances.traces if method.endswith(", traces") else distances.policies
     gamma = maximum_similarities(table)
@@ -151,12 +155,3 @@ def infer(distances: SharedDistances, method: str) -> Understanding:
         labels, reading = group_movements(gamma, method=name, rng=distances.seed).labels, "paper"
     focus = infer_focus(table, labels)
     return Understanding(labels, focus, infer_word_order(distances.sign_points, labels, focus, method=reading))
-
-
-def _guess(distances: SharedDistances) -> Understanding:
-    """Guess, knowing how many movements and objects there are."""
-    rng, truth = np.random.default_rng([distances.seed, 7]), distances.session.truth
-    focus, movement = rng.permutation(truth.language.words)[:2]
-    labels = rng.integers(0, len(truth.language.movements), len(truth.movement))
-    focuses = rng.integers(0, truth.language.objects, len(truth.movement))
-    return Understanding(canonical_labels(labels), focuses, WordOrder(int(focus), int(movement)))
