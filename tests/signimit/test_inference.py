@@ -57,7 +57,7 @@ def test_similarities_to_a_group_are_means_by_hand() -> None:
     table[0, 2, 0, 0] = table[2, 0, 0, 0] = 0.5  # γ = 2
     found = focus_similarities(table, np.array([0, 0, 0, 1]))
     # 0: (4 + 2) / 2 and (1 + 1) / 2; 1: (1 + 1) / 2 and (4 + 1) / 2; 2: (2 + 1) / 2 and 1; 3, alone: 1 to all three
-    np.testing.assert_allclose(found, [[3, 1], [1, 2.5], [1.5, 1], [1, 1]])
+    np.testing.assert_allclose(found, [[3.0, 1.0], [1.0, 2.5], [1.5, 1.0], [1.0, 1.0]])
     pair = focus_similarities(table[:2, :2], np.array([0, 0]))  # each has one other
     np.testing.assert_allclose(pair, [[4, 1], [1, 4]])
 
@@ -106,7 +106,11 @@ def test_spreads_by_hand() -> None:
     assert spread_within(gaps, np.array([0, 0, 1])).tolist() == [1.0]
     assert spread_between(gaps, np.array([0, 0, 1])).tolist() == [3.0]
     assert spread_between(0 * gaps, np.array([0, 0, 1])).tolist() == [1e-12]  # signs that are all the same
-    assert spread_within(gaps, np.array([0, 1, 2])).tolist() == spread_between(gaps, np.zeros(3)).tolist() == [1.0]
+    assert (
+        spread_within(gaps, np.array([0, 1, 2])).tolist()
+        == spread_between(gaps, np.zeros(3, dtype=np.int64)).tolist()
+        == [1.0]
+    )
 
 
 def test_a_third_word_that_means_nothing_is_left_out() -> None:

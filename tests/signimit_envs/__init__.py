@@ -1,0 +1,1 @@
+"""Tests of the environments, the arm, sessions, films, recordings, commands and the studio."""

@@ -1,0 +1,1 @@
+"""Tests of the studio's server: a package, so that the studio that they share ends with them."""
