@@ -1,4 +1,4 @@
-"""Recorded episodes: what was observed, done and rewarded, and the full physics state at every control step."""
+"""Recorded episodes: observations, actions, rewards, and the physics state at every control step."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from signimit.validation import item_list
 from signimit_envs.recording.origin import RecordingOrigin
 
 BOX = "observation"
-"""Name under which an observation that is one array is kept; others have the names of their `Dict` space."""
+"""Name of an observation that is one array; those of a `Dict` space keep their own names."""
 
 _STEP_FIELDS = {"actions": None, "rewards": np.float64, "terminations": np.bool_, "truncations": np.bool_}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordedEpisode:
-    """An episode of T control steps; all arrays are read-only.
+    """Recorded episode of T control steps; all arrays are read-only.
 
     Attributes:
         observations: By name, each of shape (T + 1, ...): at the start and after every step.
-        actions: As they were given to the environment, shape (T, ...).
-        rewards: Shape (T,).
-        terminations: Whether the episode was over, because the physics blew up, shape (T,).
-        truncations: Whether its time was, shape (T,).
-        infos: Those entries of `info` that are numbers at every step, each of shape (T + 1, ...).
-        states: The physics as `mujoco.mj_getState` gives it for `STATE_SPEC`, shape (T + 1, S).
-        controls: What the drives were told during each step, shape (T, nu), rad/s.
-        seed: What the environment was reset with, if anything.
+        actions: Actions as the environment was given them, shape (T, ...).
+        rewards: Rewards of the steps, shape (T,).
+        terminations: Whether the step ended the episode because the physics blew up, shape (T,).
+        truncations: Whether the step ended the episode because its time was over, shape (T,).
+        infos: The entries of `info` that are numbers at every step, each of shape (T + 1, ...).
+        states: Physics states, `mujoco.mj_getState` with `STATE_SPEC`, shape (T + 1, S).
+        controls: Commands of the joints' drives in each step, shape (T, nu), rad/s.
+        seed: Seed of the environment's reset; None if it had none.
     """
 
     observations: dict[str, NDArray[Any]]
@@ -46,10 +46,10 @@ class RecordedEpisode:
     seed: int | None = None
 
     def __post_init__(self) -> None:
-        """Copy, check that all are of one length, and make read-only.
+        """Copy and check the arrays, and make them read-only.
 
         Raises:
-            InvalidInputError: Names the field, what was expected and what was found.
+            InvalidInputError: If a field has another type or length, or, unless an info, non-finite numbers.
         """
         steps = len(np.atleast_1d(self.rewards))
         if not steps:
@@ -71,16 +71,16 @@ class RecordedEpisode:
         return len(self.rewards)
 
     def __repr__(self) -> str:
-        """Say its size, e.g. ``RecordedEpisode(600 steps, reward 1)``."""
+        """Return its size as text, e.g. ``RecordedEpisode(600 steps, reward 1)``."""
         return f"RecordedEpisode({len(self)} steps, reward {self.rewards.sum():g})"
 
 
 @dataclass(frozen=True, eq=False)
 class Recording(Sequence[RecordedEpisode]):
-    """Episodes of one environment.
+    """Sequence of recorded episodes of one environment.
 
     Attributes:
-        origin: The environment and its model.
+        origin: Description of the environment and its model.
         episodes: The episodes, in order.
     """
 
@@ -88,10 +88,10 @@ class Recording(Sequence[RecordedEpisode]):
     episodes: tuple[RecordedEpisode, ...]
 
     def __init__(self, origin: RecordingOrigin, episodes: Iterable[RecordedEpisode]) -> None:
-        """Gather episodes.
+        """Check that all episodes have the same fields, types and shapes of rows.
 
         Raises:
-            InvalidInputError: If there are none, or one has other fields or shapes than the first.
+            InvalidInputError: If there are no episodes, or one has other fields or shapes than the first.
         """
         object.__setattr__(self, "origin", origin)
         object.__setattr__(self, "episodes", tuple(item_list(episodes, "recording")))
@@ -101,7 +101,9 @@ class Recording(Sequence[RecordedEpisode]):
             for name in sorted(first.keys() | shapes.keys()):
                 want, have = first.get(name), shapes.get(name)
                 if want != have:
-                    raise InvalidInputError(f"episode {number}: {name}", f"{_said(want)} as in episode 0", _said(have))
+                    raise InvalidInputError(
+                        f"episode {number}: {name}", f"{_row_text(want)} as in episode 0", _row_text(have)
+                    )
 
     @overload
     def __getitem__(self, index: int) -> RecordedEpisode: ...
@@ -122,12 +124,12 @@ class Recording(Sequence[RecordedEpisode]):
         return len(self.episodes)
 
     def __repr__(self) -> str:
-        """Say its sizes, e.g. ``Recording(9 episodes, 4500 steps)``."""
+        """Return its sizes as text, e.g. ``Recording(9 episodes, 4500 steps)``."""
         return f"Recording({len(self)} episode{'s' * (len(self) != 1)}, {sum(map(len, self))} steps)"
 
 
 def episode_arrays(episode: RecordedEpisode) -> dict[str, NDArray[Any]]:
-    """Return everything but the seed by flat names, ``observations.hand``, ``actions`` and so on."""
+    """Return the arrays of an episode by flat names, ``observations.hand``, ``actions`` and so on."""
     return {
         **{f"observations.{name}": array for name, array in episode.observations.items()},
         **{f"infos.{name}": array for name, array in episode.infos.items()},
@@ -136,10 +138,10 @@ def episode_arrays(episode: RecordedEpisode) -> dict[str, NDArray[Any]]:
 
 
 def episode_from_arrays(arrays: Mapping[str, NDArray[Any]], seed: int | None) -> RecordedEpisode:
-    """Undo `episode_arrays`.
+    """Make an episode from its arrays, by the names of `episode_arrays`.
 
     Raises:
-        InvalidInputError: If something is missing, or not of the length of the rest.
+        InvalidInputError: If a field is missing or unknown, or has another length than the rest.
     """
     groups: dict[str, dict[str, NDArray[Any]]] = {"observations": {}, "infos": {}}
     single = {}
@@ -162,8 +164,8 @@ def row_shapes(episode: RecordedEpisode) -> dict[str, tuple[str, tuple[int, ...]
     return {name: (array.dtype.str, array.shape[1:]) for name, array in episode_arrays(episode).items()}
 
 
-def _said(row: tuple[str, tuple[int, ...]] | None) -> str:
-    """Put a row's type and shape in words."""
+def _row_text(row: tuple[str, tuple[int, ...]] | None) -> str:
+    """Return a row's type and shape as text."""
     return "none" if row is None else f"rows of {np.dtype(row[0]).name} of shape {row[1]}"
 
 

@@ -1,10 +1,13 @@
-"""Where a recording comes from: the environment's specification and the model, complete enough to need nothing else."""
+"""Origin of a recording: the environment's specification and the model, all that replay needs."""
 
 from __future__ import annotations
 
 import base64
+import json
+import os
 import re
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
@@ -18,21 +21,25 @@ from signimit_envs.arm.scene import SUBSTEPS, scene_assets, scene_xml
 from signimit_envs.tabletop.env import TabletopEnv
 
 STATE_SPEC = mujoco.mjtState.mjSTATE_INTEGRATION
-"""What a recorded state holds: all that decides the next step. FULLPHYSICS lacks where the objects (mocap) are."""
+"""Components of a recorded state: all that decides the next step. FULLPHYSICS lacks the positions of mocap bodies."""
 
-_MAX_SUBSTEPS = 1000
-_FILE = re.compile(r"""\bfile\w*\s*=\s*["']([^"']+)""")  # MuJoCo would look for it on this disk
-_TRUSTED = ("signimit_envs.", "gymnasium.wrappers.")
+_MAX_SUBSTEPS = 1000  # physics steps in a control step that a file may ask for
+_MAX_FILES = 100  # assets that a file may name
+_FILE = re.compile(r"""\bfile\w*\s*=\s*["']([^"']+)""")  # names of files that MuJoCo would read from this disk
+_TRUSTED = ("signimit_envs.", "gymnasium.wrappers.")  # modules whose code a file may name
+
+HEADER, MODEL = "recording.json", "model.xml"
+"""Files of `write_origin`."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RecordingOrigin:
-    """What has to be known to replay a recording.
+    """Environment and model of a recording.
 
     Attributes:
         env_spec: The environment's specification as `gymnasium.envs.registration.EnvSpec.to_json` writes it.
-        model_xml: The MJCF that was compiled.
-        assets: The files that it names.
+        model_xml: The model's MJCF.
+        assets: Contents of the files that the MJCF names, by file name.
         mujoco_version: Version of the simulator.
         substeps: Physics steps in a control step.
     """
@@ -49,7 +56,7 @@ class RecordingOrigin:
 
         Raises:
             InvalidInputError: If it is another environment, was not made by `gymnasium.make`, has arguments that JSON
-                cannot say, or its model was changed after it was compiled.
+                cannot hold, or its model was changed after it was compiled.
         """
         arm = env.unwrapped
         if not isinstance(arm, TabletopEnv):
@@ -61,7 +68,7 @@ class RecordingOrigin:
         except (TypeError, ValueError) as error:
             raise InvalidInputError("environment", "arguments that JSON can say", str(error)) from None
         origin = cls(env_spec=env_spec, model_xml=scene_xml(arm.model.nmocap), assets=scene_assets())
-        if _bytes(origin.compile_model()) != _bytes(arm.model):
+        if _model_bytes(origin.compile_model()) != _model_bytes(arm.model):
             raise InvalidInputError("environment", "the model as it was compiled", "one that was changed since")
         return origin
 
@@ -69,7 +76,7 @@ class RecordingOrigin:
         """Compile the recorded model.
 
         Raises:
-            FileFormatError: If MuJoCo cannot, or the model names files that are not in the recording.
+            FileFormatError: If the MJCF does not compile, or names files that are not in the recording.
         """
         for name in _FILE.findall(self.model_xml):
             if name not in self.assets:
@@ -83,8 +90,8 @@ class RecordingOrigin:
         """Return the environment's specification, for `gymnasium.make`.
 
         Raises:
-            FileFormatError: If it is none, or names code that is neither signimit's nor Gymnasium's: files come from
-                strangers, and to make an environment is to call what they name.
+            FileFormatError: If it is no specification, or names code that is neither signimit's nor Gymnasium's: files
+                come from strangers, and `gymnasium.make` calls what they name.
         """
         try:
             spec = EnvSpec.from_json(self.env_spec)
@@ -97,7 +104,7 @@ class RecordingOrigin:
         return spec
 
     def to_meta(self) -> dict[str, Any]:
-        """Return everything as what JSON can say."""
+        """Return all attributes in JSON types, assets in base64."""
         return {
             "env_spec": self.env_spec,
             "model_xml": self.model_xml,
@@ -109,7 +116,11 @@ class RecordingOrigin:
 
     @classmethod
     def from_meta(cls, meta: Any, where: str) -> RecordingOrigin:
-        """Undo `to_meta`, complaining about ``where`` if that cannot be."""
+        """Make an origin from what `to_meta` returned.
+
+        Raises:
+            FileFormatError: If it is something else; the message begins with ``where``.
+        """
         try:
             state, substeps = str(meta["state"]), int(meta["substeps"])
             texts = {name: str(meta[name]) for name in ("env_spec", "model_xml", "mujoco_version")}
@@ -122,7 +133,7 @@ class RecordingOrigin:
         return cls(assets=assets, substeps=substeps, **texts)
 
     def version_note(self) -> str:
-        """Say what may differ because MuJoCo is another version than at recording; empty if it is the same."""
+        """Return a sentence on what may differ with this version of MuJoCo; empty if it is that of the recording."""
         if self.mujoco_version == mujoco.__version__:
             return ""
         return (
@@ -131,7 +142,50 @@ class RecordingOrigin:
         )
 
 
-def _bytes(model: mujoco.MjModel) -> bytes:
+def _model_bytes(model: mujoco.MjModel) -> bytes:
     buffer = np.empty(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, buffer)
     return buffer.tobytes()
+
+
+def write_origin(folder: Path, origin: RecordingOrigin, header: dict[str, Any]) -> None:
+    """Write an origin as plain files: ``recording.json`` (header and environment), ``model.xml`` and its assets."""
+    meta = {name: value for name, value in origin.to_meta().items() if name not in ("model_xml", "assets")}
+    text = json.dumps({**header, "origin": {**meta, "assets": sorted(origin.assets)}}, indent=1)
+    (folder / HEADER).write_text(text + "\n", encoding="utf-8")
+    (folder / MODEL).write_bytes(origin.model_xml.encode("utf-8"))
+    for name, data in origin.assets.items():
+        (folder / name).write_bytes(data)
+
+
+def read_origin(folder: Path, kind: str, version: int) -> tuple[RecordingOrigin, dict[str, Any]]:
+    """Read the files of `write_origin`.
+
+    Returns:
+        The origin, and the header.
+
+    Raises:
+        FileFormatError: If a file or field is missing, or the header is of another kind or newer than ``version``.
+    """
+    where = os.fspath(folder / HEADER)
+    try:
+        header = json.loads((folder / HEADER).read_bytes())
+        found, number = header["kind"], int(header["version"])
+        if found != kind or number > version:
+            raise FileFormatError(where, f"a {kind} of version <= {version}", f"{found} version {number}")
+        meta = dict(header["origin"])
+        names = [str(name) for name in meta.pop("assets")]
+        xml = (folder / MODEL).read_bytes().decode("utf-8")
+    except FileFormatError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise FileFormatError(where, f"a whole {kind} of signimit", f"{error!r:.120}") from None
+    for name in names:
+        if name != Path(name).name or name in (HEADER, MODEL) or len(names) > _MAX_FILES:
+            raise FileFormatError(where, "assets beside it", f"{name!r:.80}")
+    origin = RecordingOrigin.from_meta({**meta, "model_xml": xml, "assets": {}}, where)
+    try:
+        assets = {name: (folder / name).read_bytes() for name in names}
+    except OSError as error:
+        raise FileFormatError(where, f"the asset {error.filename}", f"{error.strerror}") from None
+    return RecordingOrigin(**{**vars(origin), "assets": assets}), header

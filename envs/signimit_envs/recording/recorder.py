@@ -1,8 +1,10 @@
-"""A Gymnasium wrapper that keeps everything that happens."""
+"""Recorder: a Gymnasium wrapper that records episodes with their physics states, and recordings of a model."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from contextlib import closing
+from dataclasses import asdict
 from typing import Any
 
 import gymnasium as gym
@@ -11,14 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError
+from signimit.learning import ImitationModel
+from signimit.policies import CONTROL_PERIOD, run_policy
+from signimit.policies.closed_loop import count_steps
+from signimit.teaching.languages import PAPER_LANGUAGE, Language
+from signimit.teaching.sessions import Command
+from signimit_envs.arm.scene import hand_action
 from signimit_envs.recording.episodes import BOX, RecordedEpisode, Recording
 from signimit_envs.recording.origin import STATE_SPEC, RecordingOrigin
 
+ENV_ID = "signimit_envs:signimit/TabletopHand-v0"
+
 
 class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
-    """Records the episodes of ``signimit/Tabletop-v0`` or ``signimit/TabletopHand-v0``, whatever they observe.
+    """Gymnasium wrapper that records episodes of signimit's environments with any observation of arrays.
 
-    Put it outside all wrappers whose effect shall be in the recording::
+    Put it outside all wrappers whose effect is to be recorded::
 
         env = EpisodeRecorder(gym.make("signimit/TabletopHand-v0"))
         ...  # reset and step as ever
@@ -26,15 +36,19 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
     """
 
     def __init__(self, env: gym.Env[Any, Any]) -> None:
-        """Describe the environment.
+        """Record an environment.
 
         Raises:
-            InvalidInputError: If it cannot be described (see `RecordingOrigin.of`), or observes something else than
-                arrays, or a flat `Dict` of arrays.
+            InvalidInputError: If it cannot be described (see `RecordingOrigin.of`), or its observations are neither an
+                array nor a flat `Dict` of arrays.
         """
         super().__init__(env)
         self._origin = RecordingOrigin.of(env)
-        _check_space(env.observation_space)
+        space = env.observation_space
+        for name, part in (space.spaces if isinstance(space, gym.spaces.Dict) else {BOX: space}).items():
+            if not isinstance(part, gym.spaces.Box | gym.spaces.Discrete | gym.spaces.MultiBinary):
+                expected = "arrays, or a flat Dict of arrays (gymnasium.wrappers.FlattenObservation makes one array)"
+                raise InvalidInputError(f"observation space: {name}", expected, type(part).__name__)
         arm: Any = env.unwrapped
         self._model, self._data = arm.model, arm.data
         self._finished: list[RecordedEpisode] = []
@@ -42,16 +56,16 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
 
     @property
     def recording(self) -> Recording:
-        """All episodes so far in which a step was made, the current one included.
+        """All episodes so far that have a step, the current one included.
 
         Raises:
-            InvalidInputError: If there are none yet.
+            InvalidInputError: If there are no such episodes yet.
         """
         current = [self._draft.episode()] if self._draft and self._draft.actions else []
         return Recording(self._origin, [*self._finished, *current])
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Start an episode, as the environment does."""
+        """Start an episode; arguments and results are the environment's."""
         if self._draft and self._draft.actions:
             self._finished.append(self._draft.episode())
         self._draft = None
@@ -61,7 +75,7 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
         return observation, info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
-        """Do a step, as the environment does.
+        """Do a control step; arguments and results are the environment's.
 
         Raises:
             InvalidInputError: If there was no reset, or the last one failed.
@@ -83,7 +97,7 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
 
 
 class _Draft:
-    """An episode as it grows."""
+    """Lists of what was recorded of the current episode."""
 
     def __init__(self, seed: int | None) -> None:
         self.seed = seed
@@ -95,7 +109,7 @@ class _Draft:
         self.outcomes: list[tuple[float, bool, bool]] = []
 
     def see(self, observation: Any, info: dict[str, Any], state: NDArray[np.float64]) -> None:
-        """Add what is seen at the start or after a step."""
+        """Add observation, info and physics state at the start or after a step."""
         named = observation if isinstance(observation, Mapping) else {BOX: observation}
         self.observations.append({name: np.array(value) for name, value in named.items()})
         self.infos.append({name: array for name, value in info.items() if (array := _numbers(value)) is not None})
@@ -118,7 +132,7 @@ class _Draft:
 
 
 def _numbers(value: Any) -> NDArray[Any] | None:
-    """Return a value as an array if it is numbers, and some."""
+    """Return a value as an array if it consists of at least one number, else None."""
     try:
         array = np.array(value)
     except ValueError:  # ragged
@@ -127,7 +141,7 @@ def _numbers(value: Any) -> NDArray[Any] | None:
 
 
 def _stacked(steps: list[Any]) -> dict[str, NDArray[Any]]:
-    """Stack those entries that are there at every step in one shape."""
+    """Stack the entries that every step has in the same shape."""
     return {
         name: np.stack([step[name] for step in steps])
         for name, first in steps[0].items()
@@ -135,9 +149,33 @@ def _stacked(steps: list[Any]) -> dict[str, NDArray[Any]]:
     }
 
 
-def _check_space(space: gym.Space[Any]) -> None:
-    parts = space.spaces if isinstance(space, gym.spaces.Dict) else {BOX: space}
-    for name, part in parts.items():
-        if not isinstance(part, gym.spaces.Box | gym.spaces.Discrete | gym.spaces.MultiBinary):
-            expected = "arrays, or a flat Dict of arrays (gymnasium.wrappers.FlattenObservation makes one array)"
-            raise InvalidInputError(f"observation space: {name}", expected, type(part).__name__)
+def record_reproductions(
+    model: ImitationModel, commands: Iterable[Command], seconds: float = 10.0, language: Language = PAPER_LANGUAGE
+) -> Recording:
+    """Record a model that obeys commands with the simulated arm, one episode each.
+
+    Args:
+        model: The model; it is given the signs and the positions of the objects.
+        commands: The commands; requests are in ``infos``, judged by the environment's own drawings.
+        seconds: Duration of each episode, s.
+        language: Language of the commands.
+
+    Raises:
+        InvalidInputError: If there are no commands, or one is impossible in the environment.
+    """
+    if not 0 < seconds <= 600.0:  # a comparison with NaN is false
+        raise InvalidInputError("seconds", "above 0, at most 600", f"{seconds}")
+    steps = max(1, count_steps(seconds))
+    env = gym.make(ENV_ID, max_episode_steps=steps, language=asdict(language))
+    with closing(EpisodeRecorder(env)) as recorder:
+        for command in commands:
+            places = {"objects": command.objects, "hand": command.hand}
+            observation, _ = recorder.reset(options={**command.request._asdict(), **places, "signs": command.signs})
+
+            def step_arm(hand: NDArray[np.float64], velocity: NDArray[np.float64]) -> NDArray[np.float64] | None:
+                seen, _, terminated, truncated, _ = recorder.step(hand_action(velocity).astype(np.float32))
+                return None if terminated or truncated else seen["hand"]
+
+            policy = model.respond(command.signs, command.objects).policy
+            run_policy(policy, observation["hand"], steps * CONTROL_PERIOD, step_arm)
+        return recorder.recording

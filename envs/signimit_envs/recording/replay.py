@@ -1,4 +1,4 @@
-"""Replaying recordings: simulate them again, step by step, or show their states with another observation."""
+"""Replay of recordings: exact simulation from the recorded controls, observations and films of recorded states."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from signimit_envs.video.rendering import OffscreenView
 
 
 class Divergence(NamedTuple):
-    """Where a simulation leaves the recording.
+    """First difference between a simulation and the recording.
 
     Attributes:
         step: The first control step, from 0, after which the states differ.
@@ -32,10 +32,11 @@ class Divergence(NamedTuple):
 def find_divergence(origin: RecordingOrigin, episode: RecordedEpisode) -> Divergence | None:
     """Simulate an episode from its first state with the recorded controls, and compare every state bit for bit.
 
-    After a blow-up the environment put the arm back; from there the recorded state is taken, not simulated.
+    A blow-up of the physics, after which the environment put the arm back, is not simulated: the recorded state is
+    taken.
 
     Returns:
-        None if all states are equal.
+        The first difference; None if all states are equal.
 
     Raises:
         FileFormatError: If the states or controls are not those of the model.
@@ -66,25 +67,39 @@ def observe_states(origin: RecordingOrigin, episode: RecordedEpisode) -> dict[st
         FileFormatError: If the states are not those of the model.
     """
     model, data = _prepared(origin, episode)
-    rows = [_observed(model, data) for _ in _play(model, data, episode)]
+    hand, bodies = model.site("hand").id, object_bodies(model)
+    jacobian = np.zeros((3, model.nv))
+    rows: list[dict[str, Any]] = []
+    for _ in _play(model, data, episode):
+        mujoco.mj_jacSite(model, data, jacobian, None, hand)
+        rows.append(
+            {
+                "time": np.array(data.time),
+                "hand": data.site_xpos[hand, :2].copy(),
+                "hand_velocity": jacobian[:2].dot(data.qvel),
+                "joints": data.qpos.copy(),
+                "joint_velocities": data.qvel.copy(),
+                "objects": data.mocap_pos[bodies, :2].copy(),
+            }
+        )
     return {name: np.stack([row[name] for row in rows]) for name in rows[0]}
 
 
 def film_states(
     origin: RecordingOrigin, episode: RecordedEpisode, camera: str = "perspective", size: tuple[int, int] = (480, 480)
 ) -> Iterator[NDArray[np.uint8]]:
-    """Draw a recorded episode, T + 1 frames of shape (height, width, 3).
+    """Film a recorded episode, T + 1 frames of shape (height, width, 3).
 
     Args:
         origin: The recording's origin.
-        episode: What to draw.
+        episode: The episode.
         camera: A camera of the recorded model.
         size: Width and height, pixels.
 
     Raises:
         FileFormatError: If the states are not those of the model.
         UnknownNameError: If there is no such camera.
-        InvalidInputError: If the size cannot be.
+        InvalidInputError: If the size is too small or too large.
         RenderingError: If there is no OpenGL.
     """
     model, data = _prepared(origin, episode)
@@ -97,6 +112,7 @@ def film_states(
 
 
 def _prepared(origin: RecordingOrigin, episode: RecordedEpisode) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    """Compile the recorded model, and check that the episode's states and controls are its own."""
     model = origin.compile_model()
     sizes = mujoco.mj_stateSize(model, STATE_SPEC), model.nu
     found = episode.states.shape[1], episode.controls.shape[1]
@@ -107,24 +123,10 @@ def _prepared(origin: RecordingOrigin, episode: RecordedEpisode) -> tuple[mujoco
 
 
 def _play(model: mujoco.MjModel, data: mujoco.MjData, episode: RecordedEpisode) -> Iterator[None]:
-    """Bring the data to one recorded state after the other, with all positions that follow from it computed."""
+    """Set the data to one recorded state after the other, with its kinematics computed."""
     for state in episode.states:
         mujoco.mj_setState(model, data, state, STATE_SPEC)
         mujoco.mj_kinematics(model, data)
         mujoco.mj_comPos(model, data)
         mujoco.mj_camlight(model, data)
         yield
-
-
-def _observed(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, Any]:
-    site = model.site("hand").id
-    jacobian = np.zeros((3, model.nv))
-    mujoco.mj_jacSite(model, data, jacobian, None, site)
-    return {
-        "time": np.array(data.time),
-        "hand": data.site_xpos[site, :2].copy(),
-        "hand_velocity": jacobian[:2].dot(data.qvel),
-        "joints": data.qpos.copy(),
-        "joint_velocities": data.qvel.copy(),
-        "objects": data.mocap_pos[object_bodies(model), :2].copy(),
-    }

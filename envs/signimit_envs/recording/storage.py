@@ -1,4 +1,4 @@
-"""Recordings as ``.npz`` files without pickles, written whole or not at all."""
+"""Recordings as ``.npz`` files, without pickles, written whole or not at all."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ _STEPS = "steps"
 
 
 def save_recording(path: str | os.PathLike[str], recording: Recording) -> None:
-    """Write a ``.npz`` file: each field of all episodes in one array, and in ``steps`` where to cut.
+    """Write a ``.npz`` file: each field of all episodes in one array, and their lengths in ``steps``.
 
     Raises:
-        InvalidInputError: If it is larger than what `load_recording` would read.
+        InvalidInputError: If it is larger than `load_recording` would read.
         OSError: If the file cannot be written.
     """
     episodes = [episode_arrays(episode) for episode in recording]
@@ -36,17 +36,17 @@ def save_recording(path: str | os.PathLike[str], recording: Recording) -> None:
 
 
 def load_recording(path: str | os.PathLike[str]) -> Recording:
-    """Read what `save_recording` wrote.
+    """Read a file of `save_recording`.
 
     Raises:
-        FileFormatError: Names the file, the episode and the field.
+        FileFormatError: If a field is missing or wrong; names the file, the episode and the field.
     """
     arrays, meta = read_archive(path, KIND, VERSION)
     where = os.fspath(path)
     try:
         steps = whole_numbers(arrays.pop(_STEPS), _STEPS, (None,))
         seeds = seeds_of(meta.get("seeds"), len(steps), where)
-        episodes = _cut(arrays, steps)
+        episodes = _split_episodes(arrays, steps)
         origin = RecordingOrigin.from_meta(meta.get("origin"), where)
         made = []
         for number, (fields, seed) in enumerate(zip(episodes, seeds, strict=True)):
@@ -64,14 +64,18 @@ def load_recording(path: str | os.PathLike[str]) -> Recording:
 
 
 def seeds_of(value: Any, count: int, where: str) -> list[int | None]:
-    """Check that there is a seed, or None, for each episode."""
+    """Return the seeds of a file, a whole number or None for each episode.
+
+    Raises:
+        FileFormatError: If they are something else; the message begins with ``where``.
+    """
     if not isinstance(value, list) or len(value) != count or not all(isinstance(v, int | None) for v in value):
         raise FileFormatError(where, f"seeds of {count} episodes", f"{value!r:.40}")
     return value
 
 
-def _cut(arrays: dict[str, NDArray[Any]], steps: NDArray[np.int64]) -> list[dict[str, NDArray[Any]]]:
-    """Cut the arrays of all episodes into those of each; some have a row more than there are steps."""
+def _split_episodes(arrays: dict[str, NDArray[Any]], steps: NDArray[np.int64]) -> list[dict[str, NDArray[Any]]]:
+    """Split the arrays of all episodes into those of each; some fields have a row more than there are steps."""
     episodes: list[dict[str, NDArray[Any]]] = [{} for _ in steps]
     for name, array in arrays.items():
         rows = len(array) if array.ndim else 0

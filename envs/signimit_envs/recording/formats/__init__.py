@@ -1,4 +1,15 @@
-"""Demonstrations and recordings in everybody's formats: CSV tables, Minari, LeRobot, beside our own ``.npz``."""
+"""File formats of recordings and demonstrations.
+
+===================================================== ===================================================
+``registry``                                          reading and writing by the name of a format
+``columns``                                           the fields of a recording as columns of a table
+``csv_recordings``                                    CSV tables
+``minari_recordings``, ``minari_demonstrations``      Minari data sets, by way of ``minari_store``
+``lerobot``                                           LeRobot data sets
+===================================================== ===================================================
+
+CSV tables of demonstrations need no simulator: `signimit.io.formats`.
+"""
 
 from signimit_envs.recording.formats.registry import FORMATS as FORMATS
 from signimit_envs.recording.formats.registry import MINARI_PREFIX as MINARI_PREFIX

@@ -1,4 +1,4 @@
-"""A recording as a table: one column for each number of a step, with its unit in its name."""
+"""Columns of a recording as a table: one for each number of a step, with its unit in the name."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ _UNITS = {
     "ik_residual": "m",
 }
 _PLANAR = ("hand", "hand_velocity", "objects", "signs")  # their last axis is x and y
-_MAX_NUMBERS = 2**31
+_MAX_NUMBERS = 2**31  # in a row of a field that a file may ask for
 
 
 class Field(NamedTuple):
-    """An array of an episode, as columns.
+    """Field of an episode (one of its arrays) as columns of a table.
 
     Attributes:
         name: Its name in `episode_arrays`.
@@ -41,7 +41,7 @@ class Field(NamedTuple):
 
     @property
     def width(self) -> int:
-        """How many columns it takes."""
+        """Number of columns."""
         return math.prod(self.shape)
 
     @property
@@ -57,25 +57,25 @@ class Field(NamedTuple):
         """Names of its columns, e.g. ``observations.hand_x_m``."""
         short = self.name.rpartition(".")[2]
         unit = f"_{_UNITS[short]}" if short in _UNITS else ""
-        return [f"{self.name}{self._place(index, short)}{unit}" for index in np.ndindex(self.shape)]
-
-    def _place(self, index: tuple[int, ...], short: str) -> str:
-        texts = [str(number) for number in index]
-        if short in _PLANAR and self.shape[-1:] == (2,):
-            texts[-1] = "xy"[index[-1]]
-        return "".join(f"_{text}" for text in texts)
+        names = []
+        for index in np.ndindex(self.shape):
+            places = [str(number) for number in index]
+            if short in _PLANAR and self.shape[-1:] == (2,):
+                places[-1] = "xy"[index[-1]]
+            names.append("_".join([self.name, *places]) + unit)
+        return names
 
     def flat(self, array: NDArray[Any]) -> NDArray[Any]:
-        """Lay each step's numbers in a row, shape (rows, width)."""
+        """Reshape an array to a table, shape (rows, width)."""
         return array.reshape(len(array), self.width)
 
     def shaped(self, rows: Any) -> NDArray[Any]:
-        """Undo `flat`."""
+        """Reshape a table, shape (rows, width), to an array of the field's type and shape."""
         return np.asarray(rows).astype(self.dtype).reshape(len(rows), *self.shape)
 
 
 def fields_of(recording: Recording) -> list[Field]:
-    """Return the fields that all episodes have."""
+    """Return the fields of a recording, the same in all episodes."""
     return [Field(name, np.dtype(dtype), shape) for name, (dtype, shape) in row_shapes(recording[0]).items()]
 
 
@@ -89,22 +89,26 @@ def constant_fields(recording: Recording) -> set[str]:
 
 
 def _bits(array: NDArray[Any]) -> NDArray[np.uint8]:
-    """Return the bytes of each row, so that 0.0 and -0.0 differ and NaN is like itself."""
+    """Return the bytes of each row, so that 0.0 and -0.0 differ and NaN equals itself."""
     return np.frombuffer(array.tobytes(), np.uint8).reshape(len(array), -1)
 
 
 def has_last_row(name: str) -> bool:
-    """Tell whether a field has a row for the end of an episode, as what is seen has and what is done has not."""
+    """Tell whether a field has a row for the end of an episode: observations, infos and states have, actions not."""
     return name == "states" or "." in name
 
 
 def fields_to_meta(recording: Recording) -> dict[str, Any]:
-    """Return the fields as what JSON can say."""
+    """Return types and shapes of the fields in JSON types."""
     return {field.name: [field.dtype.str, list(field.shape)] for field in fields_of(recording)}
 
 
 def fields_from_meta(meta: Any, where: str) -> list[Field]:
-    """Undo `fields_to_meta`, complaining about ``where`` if that cannot be."""
+    """Return the fields that `fields_to_meta` wrote.
+
+    Raises:
+        FileFormatError: If they are no fields of numbers; the message begins with ``where``.
+    """
     try:
         fields = [
             Field(str(name), np.dtype(str(dtype)), tuple(map(int, shape))) for name, (dtype, shape) in meta.items()
@@ -118,10 +122,10 @@ def fields_from_meta(meta: Any, where: str) -> list[Field]:
 
 
 def check_columns(fields: Sequence[Field], most: int) -> None:
-    """Refuse fields that are too many columns, or columns of the same name.
+    """Check that fields take at most ``most`` columns, all of different names.
 
     Raises:
-        InvalidInputError: Says which.
+        InvalidInputError: If they do not.
     """
     total = sum(field.width for field in fields)
     if total > most:

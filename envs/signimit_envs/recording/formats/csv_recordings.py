@@ -1,9 +1,9 @@
 """Recordings as CSV tables in a folder.
 
-``steps.csv`` has a line for the start of an episode and for each step: ``episode``, ``step``, what was seen then, and
-what was done next and came of it; these cells are empty in an episode's last line. ``episodes.csv`` has a line for each
-episode: how many steps it has, its seed, and what stayed the same throughout. ``recording.json`` has types and shapes,
-``model.xml`` the model.
+``steps.csv`` has a line for the start of an episode and for each step: ``episode``, ``step``, what was observed then,
+and the next action with its outcome; these cells are empty in an episode's last line. ``episodes.csv`` has a line for
+each episode: its number of steps, its seed, and the observations that are constant in all episodes. ``recording.json``
+has types and shapes, ``model.xml`` the model.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from signimit_envs.recording.formats.columns import (
     fields_to_meta,
     has_last_row,
 )
-from signimit_envs.recording.formats.origin_files import read_origin, write_origin
+from signimit_envs.recording.origin import read_origin, write_origin
 from signimit_envs.recording.storage import KIND, VERSION
 
 STEPS, EPISODES = "steps.csv", "episodes.csv"
-_MOST_COLUMNS = 10_000
+_MAX_COLUMNS = 10_000  # of a table; pixels are more
 _STEP_KEYS, _EPISODE_KEYS = ("episode", "step"), ("episode", "steps", "seed")
 
 
@@ -42,12 +42,12 @@ def write_csv_recording(folder: str | os.PathLike[str], recording: Recording, ov
     """Write a folder of tables, whole or not at all.
 
     Raises:
-        InvalidInputError: If a step is too large (pixels), or there is something of that name, unless such tables that
-            may be replaced.
+        InvalidInputError: If a step has too many numbers (pixels), or the name is taken, unless by such tables and
+            ``overwrite`` is true.
     """
     constant = constant_fields(recording)
     still, moving = _split(fields_of(recording), constant)
-    check_columns([*still, *moving], _MOST_COLUMNS)
+    check_columns([*still, *moving], _MAX_COLUMNS)
     header = {"kind": KIND, "version": VERSION, "fields": fields_to_meta(recording), "constant": sorted(constant)}
     with whole_folder(folder, STEPS, overwrite) as draft:
         write_origin(draft, recording.origin, header)
@@ -56,16 +56,16 @@ def write_csv_recording(folder: str | os.PathLike[str], recording: Recording, ov
 
 
 def read_csv_recording(folder: str | os.PathLike[str]) -> Recording:
-    """Read what `write_csv_recording` wrote.
+    """Read the tables of `write_csv_recording`.
 
     Raises:
-        FileFormatError: Names the file, the line and the column.
+        FileFormatError: If a table is missing or wrong; names the file, the line and the column.
     """
     place = Path(folder)
     origin, header = read_origin(place, KIND, VERSION)
     fields = fields_from_meta(header.get("fields"), str(place))
     try:
-        check_columns(fields, _MOST_COLUMNS)
+        check_columns(fields, _MAX_COLUMNS)
         constant = header.get("constant")
         if not isinstance(constant, list):
             raise InvalidInputError("constant", "a list", type(constant).__name__)
@@ -111,7 +111,7 @@ def _step_lines(recording: Recording, fields: list[Field]) -> Iterator[list[obje
 
 
 def _cells(field: Field, array: NDArray[Any]) -> list[list[object]]:
-    """Return a step's numbers, as Python writes them exactly."""
+    """Return a table of a field's numbers that Python writes exactly."""
     flat = field.flat(array)
     wide = flat.astype(np.float64) if field.dtype.kind == "f" else flat.astype(object)
     rows: list[list[object]] = (wide + 0 if field.dtype.kind == "b" else wide).tolist()
@@ -119,6 +119,7 @@ def _cells(field: Field, array: NDArray[Any]) -> list[list[object]]:
 
 
 def _episode(number: int, line: Row, steps: Iterator[Row], still: list[Field], moving: list[Field]) -> RecordedEpisode:
+    """Read an episode from its line in ``episodes.csv`` and the next lines of ``steps.csv``."""
     line.expect(0, [number])
     count = line.whole(1)
     if count < 1:
@@ -130,33 +131,23 @@ def _episode(number: int, line: Row, steps: Iterator[Row], still: list[Field], m
             raise FileFormatError(STEPS, f"step {step} of episode {number}", "the end of the file")
         row.expect(0, [number])
         row.expect(1, [step])
-        _read_step(row, moving, step == count, table)
+        start = len(_STEP_KEYS)
+        for field in moving:
+            if step < count or has_last_row(field.name):
+                table[field.name].append(_read(row, start, field))
+            elif any(row.cells[start : start + field.width]):
+                raise row.complaint(start, "nothing in an episode's last line")
+            start += field.width
     arrays = {field.name: field.shaped(table[field.name]) for field in moving}
-    seed = line.whole(2) if line.cells[2] else None
-    return episode_from_arrays({**arrays, **_repeated(line, still, count + 1)}, seed)
-
-
-def _repeated(line: Row, fields: list[Field], rows: int) -> dict[str, NDArray[Any]]:
-    """Read what stays the same throughout an episode."""
-    arrays, start = {}, len(_EPISODE_KEYS)
-    for field in fields:
-        arrays[field.name] = np.repeat(field.shaped([_read(line, start, field)]), rows, axis=0)
+    seed, start = line.whole(2) if line.cells[2] else None, len(_EPISODE_KEYS)
+    for field in still:
+        arrays[field.name] = np.repeat(field.shaped([_read(line, start, field)]), count + 1, axis=0)
         start += field.width
-    return arrays
-
-
-def _read_step(row: Row, fields: list[Field], last: bool, table: dict[str, list[list[Any]]]) -> None:
-    start = len(_STEP_KEYS)
-    for field in fields:
-        if not last or has_last_row(field.name):
-            table[field.name].append(_read(row, start, field))
-        elif any(row.cells[start : start + field.width]):
-            raise row.complaint(start, "nothing in an episode's last line")
-        start += field.width
+    return episode_from_arrays(arrays, seed)
 
 
 def _read(row: Row, start: int, field: Field) -> list[Any]:
-    """Read a field's numbers, which have to be such as its type can hold."""
+    """Read the numbers of a field, and check that its type can hold them."""
     stop = start + field.width
     if field.dtype.kind != "f":
         values: list[Any] = [row.whole(column) for column in range(start, stop)]

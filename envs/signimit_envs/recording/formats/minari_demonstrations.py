@@ -1,4 +1,4 @@
-"""Demonstrations as Minari data sets, seen as the environment would show them."""
+"""Demonstrations as Minari data sets, with the observations of the environment."""
 
 from __future__ import annotations
 
@@ -18,27 +18,27 @@ from signimit_envs.tabletop.reset_options import WORDS
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 _ENV_ID = "signimit/TabletopHand-v0"
-_ALMOST = 1e-9
+_MARGIN = 1e-9  # that the bounds of spaces leave to the largest number
 
 
 def write_minari_demonstrations(dataset_id: str, demonstrations: DemonstrationSet, overwrite: bool = False) -> Path:
-    """Make a Minari data set, one episode a demonstration.
+    """Write a Minari data set, one episode a demonstration.
 
     Observations are ``hand`` (2,), m, ``objects`` (O, 2), m, and ``signs`` (W, 64, 2), resampled and scaled as in the
     environment; actions the hand's mean velocity until the next sample, in units of
     `TabletopHandEnv.max_hand_speed`. ``infos`` has ``time``, s, and the signs as they were drawn, ``sign_0`` and so on.
-    `recover_environment` gives ``signimit/TabletopHand-v0`` with as many objects, where that can be.
+    `recover_environment` makes ``signimit/TabletopHand-v0`` where the environment has such objects and signs.
 
     Args:
-        dataset_id: Its name among Minari's data sets, e.g. ``"signimit/demonstrations-v0"``.
-        demonstrations: What to write.
+        dataset_id: Name of the data set, e.g. ``"signimit/demonstrations-v0"``.
+        demonstrations: The demonstrations.
         overwrite: Replace a data set of that name.
 
     Returns:
-        Its folder.
+        The folder of the data set.
 
     Raises:
-        InvalidInputError: If the name cannot be, or is taken.
+        InvalidInputError: If the name is not Minari's kind of name, or is taken.
         MissingDependencyError: If Minari is not installed.
     """
     import_minari()
@@ -46,11 +46,16 @@ def write_minari_demonstrations(dataset_id: str, demonstrations: DemonstrationSe
     count, words = len(demonstrations[0].objects), len(demonstrations[0].signs)
     spec = None
     if count in OBJECT_COUNTS and words == WORDS:
-        spec = copy.deepcopy(gym.spec(_ENV_ID))  # what is asked for is the registered one itself
+        spec = copy.deepcopy(gym.spec(_ENV_ID))  # gym.spec returns the registered one itself
         spec.kwargs["objects"] = count
     header = {"kind": KIND, "version": VERSION}
+    observation_boxes = {
+        "hand": _box(max(float(np.abs(path).max()) for path in demonstrations.paths), 2),
+        "objects": _box(float(np.abs(demonstrations.objects).max()), count, 2),
+        "signs": _box(1.0, words, SAMPLES, 2),
+    }
     spaces = {
-        "observation_space": _observation_space(demonstrations),
+        "observation_space": gym.spaces.Dict(observation_boxes),
         "action_space": _box(max(1.0, *(float(np.abs(buffer.actions).max()) for buffer in buffers)), 2),
     }
     description = "Demonstrations to signimit: two signs, objects and a hand that answers; nobody labelled them."
@@ -58,7 +63,7 @@ def write_minari_demonstrations(dataset_id: str, demonstrations: DemonstrationSe
 
 
 def read_minari_demonstrations(folder: str | os.PathLike[str]) -> DemonstrationSet:
-    """Read what `write_minari_demonstrations` wrote.
+    """Read a data set of `write_minari_demonstrations`.
 
     Raises:
         FileFormatError: If it is half written or not a demonstration set of signimit.
@@ -66,7 +71,12 @@ def read_minari_demonstrations(folder: str | os.PathLike[str]) -> DemonstrationS
     """
     dataset, _ = open_dataset(folder, KIND, VERSION)
     with minari_errors(folder):
-        return DemonstrationSet(_demonstration(data) for data in dataset.iterate_episodes())
+        demonstrations = []
+        for data in dataset.iterate_episodes():
+            observed, infos = data.observations, data.infos
+            signs = tuple(infos[f"sign_{number}"] for number in range(observed["signs"].shape[1]))
+            demonstrations.append(Demonstration(signs, observed["objects"][0], observed["hand"], infos["time"]))
+        return DemonstrationSet(demonstrations)
 
 
 def _buffer(one: Demonstration) -> Any:
@@ -90,24 +100,6 @@ def _buffer(one: Demonstration) -> Any:
     )
 
 
-def _demonstration(data: Any) -> Demonstration:
-    seen, infos = data.observations, data.infos
-    words = seen["signs"].shape[1]
-    signs = tuple(infos[f"sign_{number}"] for number in range(words))
-    return Demonstration(signs, seen["objects"][0], seen["hand"], infos["time"])
-
-
-def _observation_space(demonstrations: DemonstrationSet) -> gym.spaces.Dict:
-    count, words = len(demonstrations[0].objects), len(demonstrations[0].signs)
-    return gym.spaces.Dict(
-        {
-            "hand": _box(max(float(np.abs(path).max()) for path in demonstrations.paths), 2),
-            "objects": _box(float(np.abs(demonstrations.objects).max()), count, 2),
-            "signs": _box(1.0, words, SAMPLES, 2),
-        }
-    )
-
-
 def _box(limit: float, *shape: int) -> gym.spaces.Box:
-    bound = np.full(shape, limit + _ALMOST)
+    bound = np.full(shape, limit + _MARGIN)
     return gym.spaces.Box(-bound, bound, shape, np.float64)

@@ -1,4 +1,4 @@
-"""Recordings as Minari data sets: plain episodes to whoever reads them, and the physics beside, in ``infos``."""
+"""Recordings as Minari data sets, with the physics in ``infos``."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ _PHYSICS = "physics"
 
 
 def write_minari_recording(dataset_id: str, recording: Recording, overwrite: bool = False) -> Path:
-    """Make a Minari data set whose `recover_environment` gives the recorded environment.
+    """Write a Minari data set whose `recover_environment` makes the recorded environment.
 
-    ``infos`` has what the environment's had, ``physics/state`` (see `STATE_SPEC`) and ``physics/control``, which has a
+    ``infos`` has the environment's entries, ``physics/state`` (see `STATE_SPEC`) and ``physics/control``, which has a
     row of zeros at the start.
 
     Args:
-        dataset_id: Its name among Minari's data sets, e.g. ``"signimit/obey-v0"``.
-        recording: What to write.
+        dataset_id: Name of the data set, e.g. ``"signimit/obey-v0"``.
+        recording: The recording.
         overwrite: Replace a data set of that name.
 
     Returns:
-        Its folder.
+        The folder of the data set.
 
     Raises:
-        InvalidInputError: If the name cannot be, or is taken.
+        InvalidInputError: If the name is not Minari's kind of name, or is taken.
         MissingDependencyError: If Minari is not installed.
     """
     import_minari()
@@ -52,7 +52,7 @@ def write_minari_recording(dataset_id: str, recording: Recording, overwrite: boo
 
 
 def read_minari_recording(folder: str | os.PathLike[str]) -> Recording:
-    """Read what `write_minari_recording` wrote.
+    """Read a data set of `write_minari_recording`.
 
     Raises:
         FileFormatError: If it is half written or not a recording of signimit.

@@ -1,4 +1,4 @@
-"""Minari's folders: made whole or not at all, found by name or by place, read without running what they name."""
+"""Minari's folders of data sets: written whole or not at all, read without running the code that they name."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
     from minari.data_collector import EpisodeBuffer
 
 MARKER = "data/metadata.json"
-_OURS = "signimit"
-_ROOT = "MINARI_DATASETS_PATH"
+_OUR_KEY = "signimit"  # of the header in the metadata
+_ROOT = "MINARI_DATASETS_PATH"  # environment variable with the folder of all data sets
 _REQUIREMENTS = ["signimit", f"mujoco=={mujoco.__version__}"]
 
 
 def import_minari() -> Any:
-    """Return the package.
+    """Import Minari.
 
     Raises:
         MissingDependencyError: If it is not installed.
@@ -44,20 +44,20 @@ def import_minari() -> Any:
 def create_dataset(
     dataset_id: str, buffers: Sequence[EpisodeBuffer], header: dict[str, Any], overwrite: bool, **arguments: Any
 ) -> Path:
-    """Make a data set among Minari's own, whole or not at all.
+    """Create a data set in Minari's folder, whole or not at all.
 
     Args:
-        dataset_id: Its name, ``namespace/name-v0``.
-        buffers: Its episodes.
-        header: What only signimit knows, as JSON can say it; read back by `open_dataset`.
+        dataset_id: Name of the data set, ``namespace/name-v0``.
+        buffers: The episodes.
+        header: Signimit's own metadata in JSON types, read back by `open_dataset`.
         overwrite: Replace a data set of that name.
-        **arguments: More for `minari.create_dataset_from_buffers`.
+        **arguments: Further arguments of `minari.create_dataset_from_buffers`.
 
     Returns:
-        Its folder.
+        The folder of the data set.
 
     Raises:
-        InvalidInputError: If the name cannot be, or is taken.
+        InvalidInputError: If the name is not Minari's kind of name, or is taken.
         MissingDependencyError: If Minari is not installed.
     """
     minari = import_minari()
@@ -75,7 +75,7 @@ def create_dataset(
             dataset = minari.create_dataset_from_buffers(
                 dataset_id, list(buffers), requirements=_REQUIREMENTS, jpeg_encoding=False, **arguments
             )
-            dataset.storage.update_metadata({_OURS: header})
+            dataset.storage.update_metadata({_OUR_KEY: header})
             os.rename(dataset_folder(dataset_id) / "data", draft / "data")
         shutil.rmtree(draft / "root")
     return place
@@ -85,12 +85,12 @@ def open_dataset(place: str | os.PathLike[str], kind: str, version: int) -> tupl
     """Open a data set that signimit wrote.
 
     Args:
-        place: Its folder.
-        kind: What it must hold.
-        version: Newest layout of that which the caller understands.
+        place: Folder of the data set.
+        kind: Kind of data that it must hold.
+        version: Newest version of that kind that the caller reads.
 
     Returns:
-        The data set, and the header it was made with.
+        The data set, and the header of `create_dataset`.
 
     Raises:
         FileFormatError: If it is half written, of another version of Minari, or not signimit's.
@@ -99,9 +99,9 @@ def open_dataset(place: str | os.PathLike[str], kind: str, version: int) -> tupl
     minari = import_minari()
     try:
         metadata = json.loads((Path(place) / MARKER).read_bytes())
-        header = metadata[_OURS]
+        header = metadata[_OUR_KEY]
         found, number = header["kind"], int(header["version"])
-        # Without these Minari would make the environment that the file names, whatever code that is.
+        # Without these Minari would make the environment that the file names, and so run foreign code.
         _ = metadata["observation_space"], metadata["action_space"]
     except (OSError, ValueError, KeyError, TypeError) as error:
         expected = f"a whole Minari data set with a {kind} of signimit"
@@ -115,7 +115,7 @@ def open_dataset(place: str | os.PathLike[str], kind: str, version: int) -> tupl
 
 @contextmanager
 def minari_errors(place: str | os.PathLike[str]) -> Iterator[None]:
-    """Turn what Minari and HDF5 raise of a broken data set into one sentence."""
+    """Raise a `FileFormatError` for any error of Minari or HDF5 in a broken data set."""
     try:
         yield
     except (OSError, ValueError, KeyError, TypeError, AssertionError, AttributeError, IndexError) as error:
@@ -125,7 +125,7 @@ def minari_errors(place: str | os.PathLike[str]) -> Iterator[None]:
 
 
 def dataset_folder(dataset_id: str) -> Path:
-    """Return where Minari keeps, or would keep, a data set.
+    """Return the folder of a data set in Minari's folder, existing or not.
 
     Raises:
         MissingDependencyError: If Minari is not installed.
@@ -137,13 +137,13 @@ def dataset_folder(dataset_id: str) -> Path:
 
 
 def _reason(error: Exception) -> str:
-    """Say shortly what went wrong."""
+    """Return type and message of an error in one short line."""
     return f"{type(error).__name__}: {' '.join(str(error).split())[:120]}"
 
 
 @contextmanager
 def _datasets_in(root: Path) -> Iterator[None]:
-    """Let Minari keep its data sets elsewhere for a while; its functions know no other way to be told."""
+    """Context in which Minari's folder is another one; only the environment variable can say so."""
     before = os.environ.get(_ROOT)
     os.environ[_ROOT] = str(root)
     try:

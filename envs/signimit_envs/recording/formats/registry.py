@@ -1,4 +1,4 @@
-"""One way in and one way out: demonstrations and recordings in any format that signimit knows."""
+"""Reading and writing demonstrations and recordings by the name of a file format."""
 
 from __future__ import annotations
 
@@ -29,18 +29,18 @@ from signimit_envs.recording.storage import load_recording, save_recording
 
 Data = Recording | DemonstrationSet
 MINARI_PREFIX = "minari:"
-"""Begins the name of a data set among Minari's own, e.g. ``minari:signimit/obey-v0``."""
+"""Prefix of the name of a data set in Minari's folder, e.g. ``minari:signimit/obey-v0``."""
 
 
 class Format(NamedTuple):
     """A file format.
 
     Attributes:
-        read_recording: Reads a recording from a place.
-        read_demonstrations: Reads demonstrations from a place.
-        write_recording: Writes a recording to a place, replacing one if told so.
-        write_demonstrations: Writes demonstrations to a place, replacing some if told so.
-        markers: Files by which a folder of this format is known.
+        read_recording: Reads a recording from a file or folder.
+        read_demonstrations: Reads demonstrations from a file or folder.
+        write_recording: Writes a recording; the last argument says whether to replace one.
+        write_demonstrations: Writes demonstrations; the last argument says whether to replace some.
+        markers: Files of which a folder of this format has one.
     """
 
     read_recording: Callable[[str], Recording]
@@ -87,10 +87,10 @@ FORMATS = {
 
 
 def check_vacant_file(path: str | os.PathLike[str], overwrite: bool) -> None:
-    """Refuse a place where there is something, unless a file that may be replaced.
+    """Check that a path is vacant, or a file that may be replaced.
 
     Raises:
-        InvalidInputError: Names the place.
+        InvalidInputError: If it is taken.
     """
     place = Path(path)
     if os.path.lexists(place) and not (overwrite and place.is_file()):
@@ -98,18 +98,22 @@ def check_vacant_file(path: str | os.PathLike[str], overwrite: bool) -> None:
 
 
 def read_data(place: str | os.PathLike[str]) -> Data:
-    """Read demonstrations or a recording, whatever is there, in whichever format.
+    """Read demonstrations or a recording in any of `FORMATS`.
 
     Args:
         place: A ``.npz`` file, a folder, or ``minari:`` and the name of a data set.
 
     Raises:
-        FileNotFoundError: If there is nothing.
+        FileNotFoundError: If there is no such file, folder or data set.
         FileFormatError: If it is none of signimit's formats, or half written.
         MissingDependencyError: If the format needs a package that is not installed.
     """
     name = detect_format(place)
-    where = _location(place)
+    where = os.fspath(place)
+    if where.startswith(MINARI_PREFIX):
+        folder = dataset_folder(where.removeprefix(MINARI_PREFIX))
+        folder.stat()
+        where = os.fspath(folder)
     if name == "csv":
         found = (Path(where) / HANDS).is_file()
         return read_csv_demonstrations(where) if found else read_csv_recording(where)
@@ -125,7 +129,7 @@ def read_recording(place: str | os.PathLike[str]) -> Recording:
     """Read a recording in any format; see `read_data`.
 
     Raises:
-        FileFormatError: Also if there are demonstrations instead, which have no physics to replay.
+        FileFormatError: Also if it holds demonstrations, which have no physics to replay.
     """
     data = read_data(place)
     if isinstance(data, DemonstrationSet):
@@ -139,13 +143,13 @@ def write_data(place: str | os.PathLike[str], data: Data, name: str, overwrite: 
     Args:
         place: A file for ``npz``, a folder for ``csv`` and ``lerobot``, the name of a data set for ``minari``, with or
             without ``minari:``.
-        data: What to write.
+        data: Demonstrations or a recording.
         name: One of `FORMATS`.
-        overwrite: Replace a data set of the same format that is there.
+        overwrite: Replace an existing data set of the same format.
 
     Raises:
         UnknownNameError: If there is no such format.
-        InvalidInputError: If there is something of that name already, or the format cannot hold this.
+        InvalidInputError: If the name is taken, or the format cannot hold the data.
         MissingDependencyError: If the format needs a package that is not installed.
     """
     if name not in FORMATS:
@@ -158,11 +162,11 @@ def write_data(place: str | os.PathLike[str], data: Data, name: str, overwrite: 
 
 
 def detect_format(place: str | os.PathLike[str]) -> str:
-    """Tell by name and content which of `FORMATS` something is in.
+    """Return the name in `FORMATS` of the format of a file, folder or data set.
 
     Raises:
-        FileNotFoundError: If there is nothing.
-        FileFormatError: If it is a folder that is none of them.
+        FileNotFoundError: If there is no such file or folder.
+        FileFormatError: If it is a folder of another format.
     """
     if os.fspath(place).startswith(MINARI_PREFIX):
         return "minari"
@@ -175,12 +179,3 @@ def detect_format(place: str | os.PathLike[str]) -> str:
             return name
     markers = ", ".join(marker for known in FORMATS.values() for marker in known.markers)
     raise FileFormatError(str(where), f"a whole data set, with one of {markers}", "none of these")
-
-
-def _location(place: str | os.PathLike[str]) -> str:
-    text = os.fspath(place)
-    if not text.startswith(MINARI_PREFIX):
-        return text
-    folder = dataset_folder(text.removeprefix(MINARI_PREFIX))
-    folder.stat()
-    return os.fspath(folder)

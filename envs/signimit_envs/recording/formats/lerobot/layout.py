@@ -1,10 +1,10 @@
-"""LeRobot's data set layout, version 3: what is where, and nothing about what it means.
+"""Layout of LeRobot data sets, version 3: files, and the types of what is in them.
 
 ::
 
     meta/info.json                              features, frame rate, path templates, totals
     meta/stats.json                             statistics of each feature over all frames
-    meta/tasks.parquet                          what was to be done, in words
+    meta/tasks.parquet                          the task in words
     meta/episodes/chunk-000/file-000.parquet    for each episode where its frames are, and their statistics
     data/chunk-000/file-000.parquet             a row for each frame, many episodes a file
     videos/KEY/chunk-000/file-000.mp4           a frame for each row of the data file of the same number
@@ -22,14 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError, MissingDependencyError
-from signimit_envs.recording.formats.lerobot.images import IMAGE
 
+IMAGE = "image"  # LeRobot's name of the type of images in tables, which it keeps as PNG
 VERSION = "v3.0"
 INFO, STATS, TASKS = "meta/info.json", "meta/stats.json", "meta/tasks.parquet"
 EPISODES = "meta/episodes/chunk-000/file-000.parquet"
 DATA = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet"
 VIDEO = "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
-FILES_A_CHUNK, DATA_MB, VIDEO_MB = 1000, 100, 200
+FILES_A_CHUNK, DATA_MB, VIDEO_MB = 1000, 100, 200  # LeRobot's: files a chunk, size of a file in MiB
 INDICES = {
     "timestamp": "float32",
     "frame_index": "int64",
@@ -40,12 +40,12 @@ INDICES = {
 
 
 class Feature(NamedTuple):
-    """What a column of frames is.
+    """Feature: type of a column of frames.
 
     Attributes:
-        dtype: numpy's name of its type, or ``"image"``.
+        dtype: numpy's name of the type, or ``"image"``.
         shape: Shape of a frame's value, (w,), or (height, width, 3) of an image.
-        names: What each of its numbers is, or each axis of an image.
+        names: Names of its numbers, or of the axes of an image.
     """
 
     dtype: str
@@ -54,16 +54,16 @@ class Feature(NamedTuple):
 
     @property
     def size(self) -> int:
-        """Bytes of a frame's value."""
+        """Size of a frame's value, bytes."""
         return math.prod(self.shape) * (1 if self.dtype == IMAGE else np.dtype(self.dtype).itemsize)
 
 
 class EpisodeFrames(NamedTuple):
-    """An episode.
+    """Frames of an episode.
 
     Attributes:
-        columns: For each feature its frames, shape (T, w), or (T, height, width, 3).
-        extras: More columns of its row in the table of episodes, each a list of numbers.
+        columns: The frames of each feature, shape (T, w), or (T, height, width, 3).
+        extras: Further columns of its row in the table of episodes, each a list of numbers.
     """
 
     columns: dict[str, NDArray[Any]]
@@ -76,12 +76,12 @@ class EpisodeFrames(NamedTuple):
 
 
 class Video(NamedTuple):
-    """A camera.
+    """Videos of a camera.
 
     Attributes:
         key: Name of the feature, ``observation.images.`` and the camera's.
         size: Width and height, pixels.
-        frames: Draws the frames of an episode, given its number.
+        frames: Function from the number of an episode to its frames.
     """
 
     key: str
@@ -91,15 +91,15 @@ class Video(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """A data set to write.
+    """Data set to write.
 
     Attributes:
         fps: Frames per second.
         robot: Name of the robot.
-        task: What was to be done, the same in all episodes.
-        features: Columns of the frames.
-        episodes: The frames.
-        videos: The cameras.
+        task: Task in words, the same in all episodes.
+        features: Features by name.
+        episodes: Frames of the episodes.
+        videos: Videos of the cameras.
     """
 
     fps: int
@@ -110,10 +110,10 @@ class Layout:
     videos: Sequence[Video] = ()
 
     def __post_init__(self) -> None:
-        """Check names.
+        """Check the names of the features.
 
         Raises:
-            InvalidInputError: If one has a slash, which LeRobot reserves, or is there twice.
+            InvalidInputError: If one has a slash, which LeRobot reserves, or is an index's or a video's.
         """
         taken = [*INDICES, *(video.key for video in self.videos)]
         for name in self.features:
@@ -122,7 +122,7 @@ class Layout:
 
     @cached_property
     def starts(self) -> NDArray[np.int64]:
-        """Number of the first frame of each episode, and behind them that of all frames, shape (N + 1,)."""
+        """Number of the first frame of each of N episodes, then that of all frames, shape (N + 1,)."""
         return np.cumsum([0, *(episode.length for episode in self.episodes)])
 
     @cached_property
@@ -135,17 +135,17 @@ class Layout:
 
 
 def file_place(what: str, file: int) -> dict[str, int]:
-    """Say in the table of episodes' words where a file is."""
+    """Return chunk and number of a file as columns of the table of episodes."""
     return {f"{what}/chunk_index": file // FILES_A_CHUNK, f"{what}/file_index": file % FILES_A_CHUNK}
 
 
 def file_path(template: str, file: int, key: str = "") -> str:
-    """Return where a file is, below the data set's folder."""
+    """Return the path of a file below the data set's folder."""
     return template.format(chunk_index=file // FILES_A_CHUNK, file_index=file % FILES_A_CHUNK, video_key=key)
 
 
 def import_pyarrow() -> Any:
-    """Return pyarrow, with its Parquet part imported.
+    """Import pyarrow with its Parquet module.
 
     Raises:
         MissingDependencyError: If it is not installed.

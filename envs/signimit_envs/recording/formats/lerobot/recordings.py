@@ -1,8 +1,8 @@
 """Recordings as LeRobot data sets.
 
-A frame is what was seen (``observation.*``, ``info.*``, ``physics.state``) and what was then done and came of it
-(``action``, ``next.*``, ``physics.control``). LeRobot's frames have no place for what was seen at an episode's end:
-that is in the table of episodes, ``signimit/final/*``. The environment and its model are in ``meta/signimit``.
+A frame has the observation (``observation.*``, ``info.*``, ``physics.state``), the action then taken and its outcome
+(``action``, ``next.*``, ``physics.control``). LeRobot's frames have no place for the observation at an episode's end:
+it is in the table of episodes, ``signimit/final/*``. The environment and its model are in ``meta/signimit``.
 """
 
 from __future__ import annotations
@@ -21,8 +21,9 @@ from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
 from signimit_envs.recording.formats.columns import Field, fields_from_meta, fields_of, fields_to_meta, has_last_row
-from signimit_envs.recording.formats.lerobot.images import IMAGE
+from signimit_envs.recording.formats.lerobot.frames import lerobot_errors, read_layout, write_layout
 from signimit_envs.recording.formats.lerobot.layout import (
+    IMAGE,
     INFO,
     EpisodeFrames,
     Feature,
@@ -30,17 +31,15 @@ from signimit_envs.recording.formats.lerobot.layout import (
     Video,
     import_pyarrow,
 )
-from signimit_envs.recording.formats.lerobot.reading import lerobot_errors, read_layout
-from signimit_envs.recording.formats.lerobot.writing import write_layout
-from signimit_envs.recording.formats.origin_files import read_origin, write_origin
+from signimit_envs.recording.origin import read_origin, write_origin
 from signimit_envs.recording.replay import film_states
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
 from signimit_envs.video.rendering import choose_backend
 
 ROBOT = "signimit_planar_arm"
-TASK = "Do what the two signs ask for."  # nobody says what that is
+TASK = "Do what the two signs ask for."  # the request itself is not observed
 ORIGIN = "meta/signimit"
-SIZE = (256, 256)
+SIZE = (256, 256)  # pixels, of videos
 _FINAL = "signimit/final/"
 _FIXED = {
     "actions": "action",
@@ -63,14 +62,14 @@ def write_lerobot_recording(
     """Write a LeRobot data set, whole or not at all.
 
     Args:
-        folder: Where.
-        recording: What to write.
-        overwrite: Replace a LeRobot data set that is there.
+        folder: Folder of the data set.
+        recording: The recording.
+        overwrite: Replace an existing LeRobot data set.
         cameras: Cameras whose videos are drawn from the recorded states; left out, all, or none without OpenGL.
         size: Width and height of the videos, pixels, even.
 
     Raises:
-        InvalidInputError: If there is something of that name.
+        InvalidInputError: If the name is taken.
         RenderingError: If cameras are asked for, and there is no OpenGL.
         MissingDependencyError: If pyarrow is not installed.
     """
@@ -98,7 +97,7 @@ def write_lerobot_recording(
 
 
 def read_lerobot_recording(folder: str | os.PathLike[str]) -> Recording:
-    """Read what `write_lerobot_recording` wrote; the videos are not read, the states can draw them again.
+    """Read a data set of `write_lerobot_recording`; its videos are not read, they can be drawn from the states.
 
     Raises:
         FileFormatError: If it is half written or not a recording of signimit.
@@ -115,25 +114,22 @@ def read_lerobot_recording(folder: str | os.PathLike[str]) -> Recording:
 
 
 def _features(fields: Sequence[Field]) -> dict[str, list[Field]]:
-    """Tell which fields, side by side, are which of LeRobot's features."""
+    """Return the fields that make each of LeRobot's features, side by side; policies look for some of their names."""
     features: dict[str, list[Field]] = {}
     for field in fields:
-        features.setdefault(_feature_name(field), []).append(field)
+        group, _, short = field.name.partition(".")
+        if field.name in _FIXED:
+            name = _FIXED[field.name]
+        elif group == "infos":
+            name = f"info.{short}"
+        elif _is_image(field):
+            name = f"observation.images.{short}"
+        elif field.dtype.kind != "f":
+            name = f"observation.{short}"
+        else:
+            name = "observation.state" if len(field.shape) < 2 else "observation.environment_state"
+        features.setdefault(name, []).append(field)
     return features
-
-
-def _feature_name(field: Field) -> str:
-    """Name the feature of a field; policies look for some of these names."""
-    if field.name in _FIXED:
-        return _FIXED[field.name]
-    group, _, short = field.name.partition(".")
-    if group == "infos":
-        return f"info.{short}"
-    if _is_image(field):
-        return f"observation.images.{short}"
-    if field.dtype.kind != "f":
-        return f"observation.{short}"
-    return "observation.state" if len(field.shape) < 2 else "observation.environment_state"
 
 
 def _is_image(field: Field) -> bool:
@@ -141,6 +137,7 @@ def _is_image(field: Field) -> bool:
 
 
 def _feature(fields: Sequence[Field]) -> Feature:
+    """Return the type of a feature that is made of fields."""
     if _is_image(fields[0]):
         return Feature(IMAGE, fields[0].shape, ("height", "width", "channels"))
     names = [column for field in fields for column in field.columns]
@@ -148,6 +145,7 @@ def _feature(fields: Sequence[Field]) -> Feature:
 
 
 def _frames(episode: RecordedEpisode, groups: dict[str, list[Field]]) -> EpisodeFrames:
+    """Return an episode as frames, the last observation as extras."""
     steps, arrays = len(episode), episode_arrays(episode)
     columns: dict[str, NDArray[Any]] = {}
     for name, fields in groups.items():
@@ -161,6 +159,7 @@ def _frames(episode: RecordedEpisode, groups: dict[str, list[Field]]) -> Episode
 
 
 def _arrays(frames: EpisodeFrames, groups: dict[str, list[Field]]) -> dict[str, NDArray[Any]]:
+    """Return the arrays of an episode by the names of `episode_arrays`."""
     arrays: dict[str, NDArray[Any]] = {}
     for name, fields in groups.items():
         column, start = frames.columns[name], 0
@@ -175,7 +174,7 @@ def _arrays(frames: EpisodeFrames, groups: dict[str, list[Field]]) -> dict[str, 
 
 
 def _video(recording: Recording, camera: str, size: tuple[int, int]) -> Video:
-    """Film each step's start; the state at an episode's end has no frame."""
+    """Return a video of the states at the start of each step; the state at an episode's end has no frame."""
     return Video(
         f"observation.images.{camera}",
         size,
@@ -184,7 +183,7 @@ def _video(recording: Recording, camera: str, size: tuple[int, int]) -> Video:
 
 
 def _drawable(recording: Recording) -> list[str]:
-    """Name all cameras of the model, or none where nothing can be drawn."""
+    """Return the names of the model's cameras; none without OpenGL."""
     try:
         choose_backend()
     except RenderingError:
