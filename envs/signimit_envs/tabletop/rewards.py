@@ -32,9 +32,9 @@ class Potential:
         """Begin an episode.
 
         Args:
-            drawing: How the requested movement is drawn, in the object's frame.
-            place: Where the requested object is, shape (2,), m.
-            hand: Where the hand starts, shape (2,), m.
+            drawing: Drawing of the requested movement, in the object's frame.
+            place: Position of the requested object, shape (2,), m, table frame.
+            hand: Position of the hand at the start, shape (2,), m.
 
         Returns:
             Φ of the start.
@@ -97,7 +97,7 @@ class DenseReward:
     """The sparse reward plus F = γ Φ(s') - Φ(s), which leaves optimal policies as they are.
 
     Source: A. Ng, D. Harada and S. Russell, ICML 1999. The shaping of an episode of T steps adds up, discounted by γ,
-    to γ^T Φ(s_T) - Φ(s_0), whatever was done between. Φ of a terminal state is 0 (M. Grzes, AAMAS 2017); an episode
+    to γ^T Φ(s_T) - Φ(s_0) for any actions between. Φ of a terminal state is 0 (M. Grzes, AAMAS 2017); an episode
     that is truncated does not end, so the potential of its last state counts. Φ remembers the path, as the sparse
     reward does: the state is that of the episode, not of the arm alone.
     """

@@ -28,7 +28,7 @@ _PROBE_SECONDS = 60  # then the backend counts as broken
 
 
 def has_display() -> bool:
-    """Tell whether a window can be opened: on Linux only where a display is set."""
+    """Return whether a window can be opened: on Linux only where a display is set."""
     return sys.platform != "linux" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
@@ -54,7 +54,7 @@ def choose_backend() -> str:
 def _first_working_backend() -> str:
     """Try each backend in a process of its own, as a failed one spoils OpenGL for its process; empty if none works.
 
-    That takes seconds, so it is done once in a process, whatever comes out.
+    That takes seconds, so it is done once in a process, also if it fails.
     """
     already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
     for backend in (*(("glfw",) if has_display() else ()), "egl", "osmesa"):
@@ -64,7 +64,7 @@ def _first_working_backend() -> str:
 
 
 def _works(backend: str) -> bool:
-    """Tell whether a backend renders a picture in a process of its own."""
+    """Return whether a backend renders a picture in a process of its own."""
     environment = {**os.environ, "MUJOCO_GL": backend}
     command = [sys.executable, "-c", _PROBE]
     try:

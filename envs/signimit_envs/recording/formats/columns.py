@@ -94,7 +94,7 @@ def _bits(array: NDArray[Any]) -> NDArray[np.uint8]:
 
 
 def has_last_row(name: str) -> bool:
-    """Tell whether a field has a row for the end of an episode: observations, infos and states have, actions not."""
+    """Return whether a field has a row for the end of an episode: observations, infos and states have, actions not."""
     return name == "states" or "." in name
 
 

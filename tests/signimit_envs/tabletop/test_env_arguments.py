@@ -1,4 +1,4 @@
-"""Whatever an environment is asked to be, Gymnasium and its wrappers can live with it."""
+"""Arguments of the environments: every combination passes Gymnasium's checks and works with its wrappers."""
 
 from __future__ import annotations
 
