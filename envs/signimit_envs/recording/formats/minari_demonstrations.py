@@ -49,7 +49,7 @@ def write_minari_demonstrations(dataset_id: str, demonstrations: DemonstrationSe
         spec = copy.deepcopy(gym.spec(_ENV_ID))  # gym.spec returns the registered one itself
         spec.kwargs["objects"] = count
     header = {"kind": KIND, "version": VERSION}
-    observation_boxes = {
+    observation_boxes: dict[str, gym.Space[Any]] = {
         "hand": _box(max(float(np.abs(path).max()) for path in demonstrations.paths), 2),
         "objects": _box(float(np.abs(demonstrations.objects).max()), count, 2),
         "signs": _box(1.0, words, SAMPLES, 2),
