@@ -9,7 +9,7 @@ from importlib import import_module
 from itertools import islice
 from typing import Any
 
-from signimit.benchmark.running import WAITING, Engine, Task, batches_of, check_counts, code_hash, run_batch
+from signimit.benchmark.running import WAITING, Engine, SessionTask, batches_of, check_counts, code_hash, run_batch
 from signimit.exceptions import InvalidInputError, MissingDependencyError
 from signimit.io.safe_files import Record
 
@@ -36,7 +36,7 @@ def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Eng
     """
     check_counts(batch=batch)
 
-    def run(tasks: Iterable[Task]) -> Iterator[Record]:
+    def run(tasks: Iterable[SessionTask]) -> Iterator[Record]:
         with _client(scheduler, timeout) as client:
             _check_workers(client, scheduler, timeout)
             batches, room = batches_of(tasks, batch), WAITING * sum(client.nthreads().values())
@@ -55,7 +55,7 @@ def dask_engine(scheduler: str, batch: int = 1, timeout: float = TIMEOUT) -> Eng
     return run
 
 
-def _submit(client: Any, batch: list[Task]) -> Any:
+def _submit(client: Any, batch: list[SessionTask]) -> Any:
     return client.submit(run_batch, batch, pure=False)
 
 

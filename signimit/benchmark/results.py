@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.protocol import Oracle
-from signimit.benchmark.running import Engine, Task, code_hash
+from signimit.benchmark.running import Engine, SessionTask, code_hash
 from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, estimate_stage
@@ -99,7 +99,7 @@ def run_missing(file: ResultFile, splits: Sequence[str], seeds: Iterable[int], e
     """
     done = {(r["split"], r["seed"]) for r in file.read()}
     empty = not read_records(file.records)
-    todo = (Task(file.entrant, split, seed) for seed in seeds for split in splits if (split, seed) not in done)
+    todo = (SessionTask(file.entrant, split, seed) for seed in seeds for split in splits if (split, seed) not in done)
     for record in engine(todo):
         if record["code"] != code_hash():
             raise FileFormatError("record of a worker", f"code {code_hash()}", str(record["code"]))

@@ -41,7 +41,7 @@ FASTEST = 1.2  # m/s along either axis, the arm's `max_hand_speed`; what is fast
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
-class Task(NamedTuple):
+class SessionTask(NamedTuple):
     """A session to run, in a form that any process on any machine can run.
 
     Attributes:
@@ -55,10 +55,10 @@ class Task(NamedTuple):
     seed: int
 
 
-Engine = Callable[[Iterable[Task]], Iterator[Record]]
+Engine = Callable[[Iterable[SessionTask]], Iterator[Record]]
 
 
-def run_task(task: Task) -> Record:
+def run_task(task: SessionTask) -> Record:
     """Run one session.
 
     Returns:
@@ -182,12 +182,12 @@ def code_hash() -> str:
     return sha.hexdigest()[:16]
 
 
-def run_batch(tasks: list[Task]) -> list[Record]:
+def run_batch(tasks: list[SessionTask]) -> list[Record]:
     """Run some sessions, one after the other; what is sent to a worker."""
     return [run_task(task) for task in tasks]
 
 
-def batches_of(tasks: Iterable[Task], size: int) -> Iterator[list[Task]]:
+def batches_of(tasks: Iterable[SessionTask], size: int) -> Iterator[list[SessionTask]]:
     """Cut tasks into batches."""
     rest = iter(tasks)
     while batch := list(islice(rest, size)):
@@ -217,7 +217,7 @@ def local_engine(workers: int, batch: int = 1) -> Engine:
     """
     check_counts(workers=workers, batch=batch)
 
-    def run(tasks: Iterable[Task]) -> Iterator[Record]:
+    def run(tasks: Iterable[SessionTask]) -> Iterator[Record]:
         context = multiprocessing.get_context("spawn")
         with _single_threads(), ProcessPoolExecutor(workers, context) as pool:
             try:
@@ -229,7 +229,7 @@ def local_engine(workers: int, batch: int = 1) -> Engine:
     return run
 
 
-def _in_turns(pool: ProcessPoolExecutor, batches: Iterator[list[Task]], room: int) -> Iterator[Record]:
+def _in_turns(pool: ProcessPoolExecutor, batches: Iterator[list[SessionTask]], room: int) -> Iterator[Record]:
     """Keep so many batches under way."""
     pending: set[Future[list[Record]]] = {pool.submit(run_batch, batch) for batch in islice(batches, room)}
     while pending:

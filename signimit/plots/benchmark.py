@@ -9,7 +9,7 @@ import numpy as np
 from signimit.benchmark.results import Summary
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.studies.scaling import CODES, STEPS, Measurement
-from signimit.benchmark.studies.tables import Calibration, LessonRow, Row
+from signimit.benchmark.studies.tables import Calibration, LessonRow, MethodScore
 from signimit.benchmark.tables import ranked
 from signimit.exceptions import MissingDependencyError
 
@@ -51,7 +51,7 @@ def draw_results(summaries: Sequence[Summary]) -> Figure:
     return figure
 
 
-def draw_cells(rows: Sequence[Row]) -> Figure:
+def draw_cells(rows: Sequence[MethodScore]) -> Figure:
     """Draw the share of sessions with every inference right: a row for each cell, a column for each method."""
     cells, methods = (list(dict.fromkeys(getattr(row, name) for row in rows)) for name in ("cell", "method"))
     shares = np.full((len(cells), len(methods)), np.nan)

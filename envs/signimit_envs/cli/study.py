@@ -19,7 +19,7 @@ from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quiz
 from signimit.benchmark.studies.tables import (
     OURS,
     LessonRow,
-    Row,
+    MethodScore,
     beaten_cells,
     calibrate,
     demonstrations_needed,
@@ -67,7 +67,7 @@ def cells(
     seeds = range(first_seed, first_seed + sessions)
     rows = tabulate(run_missing(run_session, chosen, seeds, workers, out / "sessions.jsonl"))
     with whole_files(out) as folder:
-        write_csv(folder / "cells.csv", Row._fields, rows)
+        write_csv(folder / "cells.csv", MethodScore._fields, rows)
         (folder / "cells.md").write_text(shares_table(rows) + "\n", encoding="utf-8")
         sources = [recordings.signs.source, recordings.movements.source] if recordings else ["synthetic"]
         facts = {"seeds": [seeds[0], seeds[-1]], "people": sources, "beaten": beaten_cells(rows)}

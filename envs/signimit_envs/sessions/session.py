@@ -67,7 +67,7 @@ class SessionPlan:
 Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 
-class Answer(NamedTuple):
+class ArmAnswer(NamedTuple):
     """Answer to a command: what was understood, and how the arm moved.
 
     Attributes:
@@ -95,7 +95,7 @@ class Reproduction(NamedTuple):
     """
 
     command: Command
-    answer: Answer
+    answer: ArmAnswer
     performance: Performance
 
     @property
@@ -153,7 +153,7 @@ def answer_signs(
     hand: NDArray[np.float64],
     seconds: float,
     env: TabletopHandEnv,
-) -> Answer:
+) -> ArmAnswer:
     """Let the imitator answer signs with the simulated arm.
 
     Args:
@@ -173,7 +173,7 @@ def answer_signs(
     track = reproduce(
         env, response.policy, objects, hand, seconds, each_step=lambda: joints.append(env.data.qpos.copy())
     )
-    return Answer(response.movement, response.focus, response.confidence, track.path, np.array(joints))
+    return ArmAnswer(response.movement, response.focus, response.confidence, track.path, np.array(joints))
 
 
 def _check_seconds(seconds: float) -> None:

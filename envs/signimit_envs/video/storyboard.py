@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from signimit.demonstrations import Demonstration
 from signimit.explanation import object_name, ordinal
 from signimit_envs.arm.scene import CONTROL_RATE
-from signimit_envs.sessions.session import Answer, Reproduction, SessionResult
+from signimit_envs.sessions.session import ArmAnswer, Reproduction, SessionResult
 
 FRAME_RATE = 25  # frames/s of a film
 STRIDE = CONTROL_RATE // FRAME_RATE  # control steps a frame
@@ -131,7 +131,7 @@ def show_reproduction(result: SessionResult, reproduction: Reproduction) -> Iter
 
 
 def show_answer(
-    signs: Sequence[NDArray[np.float64]], objects: NDArray[np.float64], answer: Answer, captions: tuple[str, str]
+    signs: Sequence[NDArray[np.float64]], objects: NDArray[np.float64], answer: ArmAnswer, captions: tuple[str, str]
 ) -> Iterator[Shot]:
     """Show signs being made to the robot (C), and what it does (D), each with its caption."""
     scene = Shot(phase="C", caption=captions[0], objects=objects, joints=answer.joints[0])

@@ -45,7 +45,7 @@ class ReproductionError(NamedTuple):
     """How far a reproduction is from its demonstration.
 
     Attributes:
-        swept_area: Swept error area, mm² (Khansari-Zadeh and Billard 2014, eq. 14, doi:10.1016/j.robot.2014.03.001).
+        swept_area: Swept error area, mm² (Khansari-Zadeh and Billard 2014, equation 14).
         dtw: Dynamic time warping distance, sum over 1,000 points, mm.
         goal_gap: Distance of the last point from the goal, mm.
     """

@@ -18,7 +18,7 @@ OURS = "joint"  # the method that stands first in tables
 BINS = 10  # of confidences, of equal width
 
 
-class Row(NamedTuple):
+class MethodScore(NamedTuple):
     """Number of sessions in which a method was right, with Wilson's 95 % interval of all inferences right."""
 
     cell: str
@@ -32,7 +32,7 @@ class Row(NamedTuple):
     all_high: float
 
 
-def tabulate(records: Sequence[Record]) -> list[Row]:
+def tabulate(records: Sequence[Record]) -> list[MethodScore]:
     """Count for each cell and method, ours first, in the order they first appear."""
     rows = []
     for cell in dict.fromkeys(r["cell"] for r in records):
@@ -42,17 +42,19 @@ def tabulate(records: Sequence[Record]) -> list[Row]:
             every = sum(all(v) for v in verdicts)
             low, high = wilson_interval(every, len(verdicts))
             group, focus, order = (sum(v[i] for v in verdicts) for i in range(3))
-            rows.append(Row(cell, method, len(verdicts), group, focus, order, every, round(low, 3), round(high, 3)))
+            rows.append(
+                MethodScore(cell, method, len(verdicts), group, focus, order, every, round(low, 3), round(high, 3))
+            )
     return rows
 
 
-def beaten_cells(rows: Sequence[Row]) -> list[tuple[str, str, int, int]]:
+def beaten_cells(rows: Sequence[MethodScore]) -> list[tuple[str, str, int, int]]:
     """Name every cell in which a baseline was right more often than ours: cell, method, its count and ours."""
     ours = {row.cell: row.all_right for row in rows if row.method == OURS}
     return [(r.cell, r.method, r.all_right, ours[r.cell]) for r in rows if r.all_right > ours[r.cell]]
 
 
-def shares_table(rows: Sequence[Row]) -> str:
+def shares_table(rows: Sequence[MethodScore]) -> str:
     """Return the share of sessions with every inference right, in per cent, as Markdown: a line for each cell."""
     methods = list(dict.fromkeys(row.method for row in rows))
     lines = []
@@ -62,7 +64,7 @@ def shares_table(rows: Sequence[Row]) -> str:
     return markdown_table(("cell", "n", *methods), lines)
 
 
-def _share(row: Row) -> str:
+def _share(row: MethodScore) -> str:
     text = f"{100 * row.all_right / row.sessions:.0f}"
     return f"**{text}** [{100 * row.all_low:.0f}, {100 * row.all_high:.0f}]" if row.method == OURS else text
 

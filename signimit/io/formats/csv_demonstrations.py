@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.io.formats.csv_tables import Row, read_table, write_table
+from signimit.io.formats.csv_tables import CsvRow, read_table, write_table
 from signimit.io.safe_files import whole_folder
 
 HANDS, OBJECTS, SIGNS = "hands.csv", "objects.csv", "signs.csv"
@@ -99,7 +99,7 @@ def _blocks(path: Path, depth: int) -> list[list[Path2D]]:
     return [[np.array(lines) for lines in group] for group in blocks]
 
 
-def _open_block(blocks: list[list[list[list[float]]]], row: Row, depth: int) -> None:
+def _open_block(blocks: list[list[list[list[float]]]], row: CsvRow, depth: int) -> None:
     """Begin a new demonstration, or within it a new sign, where the counters say so; they may only count up."""
     last = len(blocks) - 1
     if row.expect(0, [last, last + 1] if blocks else [0]) > last:

@@ -19,7 +19,7 @@ _NOT_FINITE = ("inf", "-inf", "nan")
 _SHOWN = 40  # characters of a wrong cell that a complaint repeats
 
 
-class Row(NamedTuple):
+class CsvRow(NamedTuple):
     """One line of a table.
 
     Attributes:
@@ -73,7 +73,7 @@ def write_table(path: str | os.PathLike[str], columns: Sequence[str], rows: Iter
         writer.writerows(rows)
 
 
-def read_table(path: str | os.PathLike[str], columns: Sequence[str]) -> Iterator[Row]:
+def read_table(path: str | os.PathLike[str], columns: Sequence[str]) -> Iterator[CsvRow]:
     """Go through the lines of a table that must have exactly these columns.
 
     Raises:
@@ -95,6 +95,6 @@ def read_table(path: str | os.PathLike[str], columns: Sequence[str]) -> Iterator
             where = f"{path}, line {reader.line_num}"
             if len(cells) != len(columns):
                 raise FileFormatError(where, f"{len(columns)} cells", f"{len(cells)}")
-            yield Row(where, columns, cells)
+            yield CsvRow(where, columns, cells)
     except csv.Error as error:
         raise FileFormatError(f"{path}, line {reader.line_num}", "comma-separated values", str(error)) from None

@@ -15,7 +15,7 @@ pytest.importorskip("distributed", reason="the engine dask needs distributed")
 from signimit.benchmark.cluster import dask_engine
 from signimit.benchmark.entries import EntrantReference
 from signimit.benchmark.results import ResultFile, records_digest, run_missing
-from signimit.benchmark.running import Task, run_task
+from signimit.benchmark.running import SessionTask, run_task
 from signimit.exceptions import InvalidInputError
 
 distributed: Any = importlib.import_module("distributed")
@@ -32,7 +32,7 @@ def cluster() -> Iterator[Any]:
 def test_a_worker_is_killed_and_the_results_are_the_same_bit_for_bit(
     cluster: Any, still: EntrantReference, tmp_path: Path
 ) -> None:
-    tasks = [Task(still, split, seed) for seed in range(4) for split in ("few", "paper")]
+    tasks = [SessionTask(still, split, seed) for seed in range(4) for split in ("few", "paper")]
     file = ResultFile(tmp_path, still)
     running = run_missing(file, ["few", "paper"], range(4), dask_engine(cluster.scheduler_address))
     next(running)
@@ -67,7 +67,7 @@ def test_a_mistake_of_an_entry_comes_back_from_the_cluster(cluster: Any) -> None
         "    def act(self, observation): return 'left'\n",
     )
     with pytest.raises(InvalidInputError, match=r"entry wrong\.py:Wrong, split few, session 0: act at step 0"):
-        list(dask_engine(cluster.scheduler_address)([Task(wrong, "few", 0)]))
+        list(dask_engine(cluster.scheduler_address)([SessionTask(wrong, "few", 0)]))
 
 
 def test_a_scheduler_that_is_not_there_gets_a_sentence() -> None:

@@ -16,18 +16,18 @@ from signimit.benchmark.results import (
     summarise,
     write_summary,
 )
-from signimit.benchmark.running import Task, code_hash
+from signimit.benchmark.running import SessionTask, code_hash
 from signimit.exceptions import FileFormatError
 from signimit.io.safe_files import Record
 
 
-def record_of(task: Task, **changes: object) -> Record:
+def record_of(task: SessionTask, **changes: object) -> Record:
     facts = {"split": task.split, "seed": task.seed, "session": "0", "code": code_hash(), "demonstrations": 6}
     scores = {"groups": 1.0, "obeyed": [1, int(task.seed > 0)], "misfit": [0.1, 0.2], "seconds": {"act": 0.5}}
     return {**facts, **scores, **changes}
 
 
-def engine(tasks: Iterable[Task]) -> Iterator[Record]:
+def engine(tasks: Iterable[SessionTask]) -> Iterator[Record]:
     """Answers at once, in another order than asked."""
     for task in reversed(list(tasks)):
         yield record_of(task)
@@ -95,7 +95,7 @@ def test_a_line_that_is_no_record_is_named(file: ResultFile) -> None:
 
 
 def test_an_engine_that_cannot_start_leaves_nothing_behind(file: ResultFile) -> None:
-    def unreachable(tasks: Iterable[Task]) -> Iterator[Record]:
+    def unreachable(tasks: Iterable[SessionTask]) -> Iterator[Record]:
         yield from ()
         raise OSError("nobody there")
 
@@ -113,7 +113,7 @@ def test_a_record_that_lacks_something_is_named(file: ResultFile) -> None:
 
 
 def test_a_worker_with_other_code_is_refused_and_what_came_before_is_kept(file: ResultFile) -> None:
-    def mixed(tasks: Iterable[Task]) -> Iterator[Record]:
+    def mixed(tasks: Iterable[SessionTask]) -> Iterator[Record]:
         first, second, *_ = tasks
         yield record_of(first)
         yield record_of(second, code="abc")

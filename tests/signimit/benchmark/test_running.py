@@ -12,7 +12,7 @@ from signimit.benchmark import entries
 from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.protocol import Entrant, Kit, Observation, Oracle, Truth
 from signimit.benchmark.results import records_digest
-from signimit.benchmark.running import FASTEST, Task, batches_of, local_engine, obey, run_task
+from signimit.benchmark.running import FASTEST, SessionTask, batches_of, local_engine, obey, run_task
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
@@ -74,7 +74,7 @@ def registered(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 def ran(name: str, split: str = "few", seed: int = 0) -> dict[str, Any]:
-    return run_task(Task(EntrantReference(name), split, seed))
+    return run_task(SessionTask(EntrantReference(name), split, seed))
 
 
 def test_an_ordinary_entry_is_handed_prototypes_a_generator_and_what_can_be_seen() -> None:
@@ -136,17 +136,17 @@ def test_a_bug_of_an_entry_keeps_its_traceback_and_says_in_which_session(monkeyp
 
 
 def test_batches_hold_all_tasks_in_order(still: EntrantReference) -> None:
-    tasks = [Task(still, "few", seed) for seed in range(5)]
+    tasks = [SessionTask(still, "few", seed) for seed in range(5)]
     assert list(batches_of(tasks, 2)) == [tasks[:2], tasks[2:4], tasks[4:]]
 
 
 def test_processes_give_what_this_process_gives_and_take_no_more_tasks_than_they_need(still: EntrantReference) -> None:
     taken: list[int] = []
 
-    def tasks() -> Iterator[Task]:
+    def tasks() -> Iterator[SessionTask]:
         for seed in range(6):
             taken.append(seed)
-            yield Task(still, "few", seed)
+            yield SessionTask(still, "few", seed)
 
     found = local_engine(workers=1)(tasks())
     records = [next(found)]
@@ -154,7 +154,7 @@ def test_processes_give_what_this_process_gives_and_take_no_more_tasks_than_they
     threads = [os.environ.get(name) for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")]
     assert threads == ["1", "1"]
     records += found
-    expected = [run_task(Task(still, "few", seed)) for seed in range(6)]
+    expected = [run_task(SessionTask(still, "few", seed)) for seed in range(6)]
     assert records_digest(sorted(records, key=lambda r: int(r["seed"]))) == records_digest(expected)
 
 
@@ -167,7 +167,7 @@ def test_the_number_of_threads_is_put_back(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_killed_process_ends_the_run_with_a_sentence() -> None:
-    tasks = [Task(EntrantReference("deadly.py:Deadly", DEADLY), "few", 0)]
+    tasks = [SessionTask(EntrantReference("deadly.py:Deadly", DEADLY), "few", 0)]
     with pytest.raises(InvalidInputError, match="one that was killed; what was done is kept, run again to go on"):
         list(local_engine(workers=1)(tasks))
 

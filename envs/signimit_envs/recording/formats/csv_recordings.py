@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.io.formats.csv_tables import Row, read_table, write_table
+from signimit.io.formats.csv_tables import CsvRow, read_table, write_table
 from signimit.io.safe_files import whole_folder
 from signimit_envs.recording.episodes import RecordedEpisode, Recording, episode_arrays, episode_from_arrays
 from signimit_envs.recording.formats.columns import (
@@ -118,7 +118,9 @@ def _cells(field: Field, array: NDArray[Any]) -> list[list[object]]:
     return rows
 
 
-def _episode(number: int, line: Row, steps: Iterator[Row], still: list[Field], moving: list[Field]) -> RecordedEpisode:
+def _episode(
+    number: int, line: CsvRow, steps: Iterator[CsvRow], still: list[Field], moving: list[Field]
+) -> RecordedEpisode:
     """Read an episode from its line in ``episodes.csv`` and the next lines of ``steps.csv``."""
     line.expect(0, [number])
     count = line.whole(1)
@@ -146,7 +148,7 @@ def _episode(number: int, line: Row, steps: Iterator[Row], still: list[Field], m
     return episode_from_arrays(arrays, seed)
 
 
-def _read(row: Row, start: int, field: Field) -> list[Any]:
+def _read(row: CsvRow, start: int, field: Field) -> list[Any]:
     """Read the numbers of a field, and check that its type can hold them."""
     stop = start + field.width
     if field.dtype.kind != "f":

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from signimit.exceptions import InvalidInputError
 from signimit.learning import ImitationModel
 from signimit.similarity import maximum_similarities, policy_distances, policy_similarities
-from signimit_envs.sessions.session import Answer as Reproduction
+from signimit_envs.sessions.session import ArmAnswer
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page.belief import understood_text
 from signimit_envs.studio.store.events import DrawnDemonstration
@@ -130,7 +130,7 @@ def film_answer(answer: Answer, track: Track) -> bytes:
     """
     path, joints, objects = (_whole(track, name) for name in ("path", "joints", "objects"))
     asked, end = answer.asked, round(FILM_SECONDS * track[0]["rate"])
-    reproduction = Reproduction(asked.movement, asked.focus, asked.confidence, path[:end], joints[:end])
+    reproduction = ArmAnswer(asked.movement, asked.focus, asked.confidence, path[:end], joints[:end])
     captions = "Signs for the robot", f"The robot: {understood_text(asked.movement, asked.focus, asked.confidence)}"
     shots = show_answer([sign.points for sign in asked.signs], objects[0], reproduction, captions)
     moved = (replace(shot, objects=objects[max(0, len(shot.trail) - 1)]) for shot in shots)

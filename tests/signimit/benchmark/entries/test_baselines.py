@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from signimit.benchmark.entries import refer_to
-from signimit.benchmark.running import Task, obey, run_task
+from signimit.benchmark.running import SessionTask, obey, run_task
 from signimit.evaluation import performed
 from signimit.teaching.sessions import Session
 
@@ -63,7 +63,7 @@ def test_the_nearby_replay_goes_where_the_objects_go(paper_session: Session, obs
 
 
 def test_nearness_obeys_the_pairs_that_were_shown_and_no_other() -> None:
-    shown = run_task(Task(refer_to("replay-nearby"), "paper", 0))
-    unseen = run_task(Task(refer_to("replay-nearby"), "unseen-pair", 0))
+    shown = run_task(SessionTask(refer_to("replay-nearby"), "paper", 0))
+    unseen = run_task(SessionTask(refer_to("replay-nearby"), "unseen-pair", 0))
     assert sum(shown["obeyed"]) >= 5
     assert sum(unseen["obeyed"]) == 0

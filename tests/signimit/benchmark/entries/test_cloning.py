@@ -19,7 +19,7 @@ from signimit.benchmark.entries.cloning import (
     utterance_features,
 )
 from signimit.benchmark.protocol import Observation
-from signimit.benchmark.running import Task, run_task
+from signimit.benchmark.running import SessionTask, run_task
 from signimit.signs import normalised_sign
 from signimit.teaching.sessions import Session
 
@@ -92,6 +92,6 @@ def _by_definition(session: Session, command: Any) -> NDArray[np.float64]:
 
 
 def test_pairs_that_were_shown_are_obeyed_more_often_than_by_chance_and_no_other() -> None:
-    shown, unseen = (run_task(Task(refer_to("clone-knn"), split, 0)) for split in ("paper", "unseen-pair"))
+    shown, unseen = (run_task(SessionTask(refer_to("clone-knn"), split, 0)) for split in ("paper", "unseen-pair"))
     assert sum(shown["obeyed"]) > 1  # chance asks one of nine
     assert sum(unseen["obeyed"]) == 0

@@ -8,7 +8,7 @@ import pytest
 
 from signimit.benchmark.entries import ENTRANTS, EntrantReference
 from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle
-from signimit.benchmark.running import Task, make_entry, obey, run_task
+from signimit.benchmark.running import SessionTask, make_entry, obey, run_task
 from signimit.demonstrations import DemonstrationSet
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Language, Request
@@ -84,7 +84,7 @@ def test_an_ordinary_entry_is_given_nothing_that_leads_to_labels(
         return Spy()
 
     monkeypatch.setitem(ENTRANTS, "spy", Entrant(name="spy", title="looks about", make=make))
-    run_task(Task(EntrantReference("spy"), "paper", 0))
+    run_task(SessionTask(EntrantReference("spy"), "paper", 0))
     assert given
     assert not [thing for thing in _reachable(given) if isinstance(thing, (GroundTruth, Language, Request, str))]
     assert isinstance(paper_session.truth, GroundTruth)

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 
 from signimit.benchmark.entries import ENTRANTS, refer_to
-from signimit.benchmark.running import Task, run_task
+from signimit.benchmark.running import SessionTask, run_task
 from signimit.learning import learn
 from signimit.teaching.sessions import Session
 
 
 def test_the_default_obeys_all_nine_pairs() -> None:
-    record = run_task(Task(refer_to("joint"), "paper", 0))
+    record = run_task(SessionTask(refer_to("joint"), "paper", 0))
     assert record["obeyed"] == [1] * 9
     assert record["read"] == [2] * 9
 
