@@ -57,21 +57,22 @@ def draw_episode_start(
         if name not in OPTIONS:
             raise UnknownNameError("reset option", name, OPTIONS)
     request = Request(
-        _checked_number(given.get("movement"), "movement", len(people.language.movements), rng),
-        _checked_number(given.get("focus"), "focus", objects, rng),
+        _given_or_random(given.get("movement"), "movement", len(people.language.movements), rng),
+        _given_or_random(given.get("focus"), "focus", objects, rng),
     )
-    objects_given = _checked_positions(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
+    positions = _checked_positions(given["objects"], "objects", (objects, 2), TABLE) if "objects" in given else None
     hand = _checked_positions(given["hand"], "hand", (2,), WORKSPACE) if "hand" in given else None
     signs = _checked_signs(given["signs"], people.language.words) if "signs" in given else None
     return EpisodeStart(
         request,
-        sample_scene(rng, objects) if objects_given is None else objects_given,
+        sample_scene(rng, objects) if positions is None else positions,
         sample_hand(rng) if hand is None else hand,
         np.stack([normalised_sign(s) for s in people.speak(request, rng)]) if signs is None else signs,
     )
 
 
-def _checked_number(value: object, name: str, count: int, rng: np.random.Generator) -> int:
+def _given_or_random(value: object, name: str, count: int, rng: np.random.Generator) -> int:
+    """Return a number below ``count``: the option, or a random one if there is none."""
     if value is None:
         return int(rng.integers(count))
     whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
@@ -81,6 +82,7 @@ def _checked_number(value: object, name: str, count: int, rng: np.random.Generat
 
 
 def _checked_positions(value: Any, name: str, shape: tuple[int, ...], half: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return positions, m, that lie in the rectangle of half sizes ``half`` about the table's centre."""
     points = finite_array(value, f"reset option {name}", shape)
     outside = np.argwhere((np.abs(points) > half + 1e-9).any(axis=-1))
     if len(outside):
@@ -91,6 +93,7 @@ def _checked_positions(value: Any, name: str, shape: tuple[int, ...], half: NDAr
 
 
 def _checked_signs(value: Any, words: int) -> NDArray[np.float64]:
+    """Return as many normalised signs, shape (``words``, 64, 2)."""
     try:
         signs = list(value)
     except TypeError:

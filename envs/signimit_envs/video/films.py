@@ -56,9 +56,16 @@ def film_grid(result: SessionResult) -> Film:
 
 
 def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
+    """Draw shots: signs to the left, the scene to the right, the caption below."""
+    width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
     with closing(SceneRenderer(objects, *SCENE_SIZE)) as renderer:
         for shot in shots:
-            yield draw_shot(shot, renderer)
+            caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
+            if shot.card:
+                yield np.vstack([draw_card((width, height), shot.card), caption])
+            else:
+                signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
+                yield np.vstack([np.hstack([signs, renderer.picture(shot, "perspective")]), caption])
 
 
 def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
@@ -68,16 +75,6 @@ def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: 
             tiles = [_draw_tile(r, end, language, renderer) for r in reproductions]
             rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
             yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
-
-
-def draw_shot(shot: Shot, renderer: SceneRenderer) -> Frame:
-    """Draw a shot: signs to the left, the scene to the right, the caption below."""
-    width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
-    caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
-    if shot.card:
-        return np.vstack([draw_card((width, height), shot.card), caption])
-    signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
-    return np.vstack([np.hstack([signs, renderer.picture(shot, "perspective")]), caption])
 
 
 def _draw_tile(reproduction: Reproduction, end: int, language: Language, renderer: SceneRenderer) -> Frame:

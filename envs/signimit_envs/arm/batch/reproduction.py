@@ -89,6 +89,7 @@ def reproduce_many(
 
 
 def _checked_hands(value: ArrayLike, count: int) -> Array:
+    """Return start positions of hands, shape (``count``, 2), m, that lie in the workspace."""
     hands = finite_array(value, "hands", (count, 2))
     outside = np.flatnonzero((np.abs(hands) > WORKSPACE + 1e-9).any(axis=1))
     if len(outside):

@@ -85,14 +85,17 @@ def read_csv_recording(folder: str | os.PathLike[str]) -> Recording:
 
 
 def _split(fields: list[Field], constant: set[str]) -> tuple[list[Field], list[Field]]:
+    """Return the fields of ``episodes.csv`` and those of ``steps.csv``."""
     return [f for f in fields if f.name in constant], [f for f in fields if f.name not in constant]
 
 
 def _columns(fields: list[Field]) -> list[str]:
+    """Return the names of all columns of fields."""
     return [column for field in fields for column in field.columns]
 
 
 def _episode_lines(recording: Recording, fields: list[Field]) -> Iterator[list[object]]:
+    """Return the lines of ``episodes.csv``."""
     for number, episode in enumerate(recording):
         arrays = episode_arrays(episode)
         cells = [cell for field in fields for cell in _cells(field, arrays[field.name][:1])[0]]
@@ -100,6 +103,7 @@ def _episode_lines(recording: Recording, fields: list[Field]) -> Iterator[list[o
 
 
 def _step_lines(recording: Recording, fields: list[Field]) -> Iterator[list[object]]:
+    """Return the lines of ``steps.csv``."""
     for number, episode in enumerate(recording):
         arrays = episode_arrays(episode)
         parts = [_cells(field, arrays[field.name]) for field in fields]

@@ -80,6 +80,7 @@ def read_minari_demonstrations(folder: str | os.PathLike[str]) -> DemonstrationS
 
 
 def _buffer(one: Demonstration) -> Any:
+    """Return a demonstration as an episode that Minari takes."""
     from minari.data_collector import EpisodeBuffer
 
     steps, samples = len(one.hand) - 1, len(one.hand)
@@ -101,5 +102,6 @@ def _buffer(one: Demonstration) -> Any:
 
 
 def _box(limit: float, *shape: int) -> gym.spaces.Box:
+    """Return the space of numbers from -``limit`` to ``limit``."""
     bound = np.full(shape, limit + _MARGIN)
     return gym.spaces.Box(-bound, bound, shape, np.float64)

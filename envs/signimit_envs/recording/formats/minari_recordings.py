@@ -68,6 +68,7 @@ def read_minari_recording(folder: str | os.PathLike[str]) -> Recording:
 
 
 def _buffer(episode: RecordedEpisode, named: bool) -> Any:
+    """Return an episode as Minari takes it; ``named`` where observations are a `Dict`."""
     from minari.data_collector import EpisodeBuffer
 
     start = np.zeros((1, episode.controls.shape[1]))
@@ -84,6 +85,7 @@ def _buffer(episode: RecordedEpisode, named: bool) -> Any:
 
 
 def _episode(data: Any, seed: int | None) -> RecordedEpisode:
+    """Return an episode that Minari has read."""
     infos: dict[str, Any] = dict(data.infos)
     physics: dict[str, NDArray[np.float64]] = infos.pop(_PHYSICS)
     return RecordedEpisode(
