@@ -90,15 +90,13 @@ def test_sign_classes_close_together_mislead_the_raw_distance_and_not_the_ratio(
     assert infer_word_order(points, MOVEMENT, FOCUS, "ratio") == WordOrder(focus=0, movement=1)
 
 
-def test_a_word_counts_by_how_much_less_it_differs_within_groups_than_between() -> None:
-    """Of two words that agree with the foci, that one names the object whose signs are further apart between them."""
-    movement, focus = [0, 0, 1, 1, 0, 1], [0, 1, 0, 1, 0, 1]
-    by_focus = np.array(focus) + np.array([0.0, 0.0, 0.1, 0.1, 0.1, 0.0])  # 0 or 1, and 0.1 of noise
-    points = np.stack([0.5 * by_focus, by_focus**3, np.array(movement)], axis=1)[..., None]
-    gaps = np.abs(points[:, None, :, 0] - points[None, :, :, 0])
-    ratio = spread_within(gaps, np.array(focus)) / spread_between(gaps, np.array(focus))
-    assert ratio[0] != ratio[1]
-    assert infer_word_order(points, movement, focus) == WordOrder(focus=int(ratio[:2].argmin()), movement=2)
+def test_words_are_compared_by_within_over_between_whatever_their_scale() -> None:
+    movement, focus = np.array([0, 0, 1, 1, 0, 1]), np.array([0, 1, 0, 1, 0, 1])
+    noise = np.array([0.0, 0.0, 1.0, 1.0, 1.0, 0.0])
+    # two words name the object: a small one drawn with a tenth of noise, and a large one with a hundredth
+    points = np.stack([0.1 * (focus + 0.1 * noise), 10 * (focus + 0.01 * noise), movement], axis=1)[..., None]
+    assert infer_word_order(points, movement, focus) == WordOrder(focus=1, movement=2)
+    assert infer_word_order(points, focus, movement) == WordOrder(focus=2, movement=1)
 
 
 def test_spreads_by_hand() -> None:

@@ -202,6 +202,23 @@ def test_a_pause_takes_time_and_no_way() -> None:
     np.testing.assert_allclose(path.times, [0, 0.5, 1, 3.5, 6])
 
 
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_a_pause_is_a_step_of_less_than_a_billionth_of_the_way(size: float) -> None:
+    """Hands tremble in a pause; how far counts only beside how far they go."""
+    points, times = size * np.array([[0.0, 0], [1, 0], [1 + 1e-10, 0], [2, 0]]), np.array([0.0, 1, 5, 6])
+    np.testing.assert_allclose(space_timed_path(points, times, 0.5 * size).times, [0, 0.5, 1, 3.5, 6])
+    late = size * np.array([[0.0, 0], [1e-10, 0], [1, 0]])
+    np.testing.assert_allclose(space_timed_path(late, times[[0, 2, 3]], 0.25 * size).times, [0, 1.5, 3, 4.5, 6])
+    slow = size * np.array([[0.0, 0], [1e-8, 0], [1, 0]])  # no pause, a slow start
+    np.testing.assert_allclose(
+        space_timed_path(slow, times[[0, 2, 3]], 0.25 * size).times, [0, 5.25, 5.5, 5.75, 6], atol=1e-6
+    )
+
+
+def test_no_path_is_cut_into_more_than_ten_thousand_steps() -> None:
+    assert len(space_path(SQUARE, 1e-9)) == 10_001
+
+
 @properties
 @given(seeds)
 def test_with_times_or_without_the_way_is_the_same(seed: int) -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, SignSpace, Stroke, dtw_distance, normalised_sign, signs
-from signimit.signs import SAMPLES, pairwise_dtw
+from signimit.signs import SAMPLES, pairwise_dtw, warped_totals
 
 Array = NDArray[np.float64]
 BAR = np.array([[0.0, 0.0], [0.0, 1.0]])
@@ -83,6 +83,23 @@ def test_all_pairs_at_once_are_each_pair_alone(block: int, monkeypatch: pytest.M
     first, second = rng.normal(size=(5, 7, 2)), rng.normal(size=(3, 4, 2))
     table = pairwise_dtw(first, second)
     assert table.tolist() == [[dtw_distance(a, b) for b in second] for a in first]
+
+
+@pytest.mark.parametrize(("block", "rows"), [(1, [1] * 5), (84, [1] * 5), (300, [3, 2]), (10**6, [5])])
+def test_a_block_holds_as_many_strokes_as_fit_and_at_least_one(
+    block: int, rows: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of the first strokes, 7 points, takes 7 * 4 costs for each of the 3 second ones."""
+    held: list[int] = []
+
+    def noted(cost: Array) -> Array:
+        held.append(cost.size)
+        return warped_totals(cost)
+
+    monkeypatch.setattr(signs, "_BLOCK", block)
+    monkeypatch.setattr(signs, "warped_totals", noted)
+    pairwise_dtw(np.zeros((5, 7, 2)), np.zeros((3, 4, 2)))
+    assert held == [84 * count for count in rows]
 
 
 @pytest.mark.parametrize(
