@@ -9,7 +9,15 @@ from typing import Any
 import pytest
 
 WORKERS = 2  # of `-n auto`; a browser and a simulation in real time want a core beside each
-REAL_TIME = ("tests/studio/", "tests/signimit_envs/studio/")  # one studio and one browser at a time
+BROWSER = "tests/studio/"
+REAL_TIME = (BROWSER, "tests/signimit_envs/studio/")  # one studio and one browser at a time
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What needs a browser is slow."""
+    for item in items:
+        if item.nodeid.startswith(BROWSER):
+            item.add_marker(pytest.mark.slow)
 
 
 @pytest.hookimpl(optionalhook=True)  # pytest-xdist may be missing

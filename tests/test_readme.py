@@ -41,6 +41,7 @@ def test_the_environment_of_the_readme_takes_a_language_and_shows_pictures(
     assert [file.suffix for file in (tmp_path / "films").iterdir()] == [".mp4"]
 
 
+@pytest.mark.slow
 def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.CaptureFixture[str]) -> None:
     names: dict[str, Any] = {}
     exec(BLOCKS[2], names)

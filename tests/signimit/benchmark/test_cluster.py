@@ -18,6 +18,7 @@ from signimit.benchmark.results import ResultFile, records_digest, run_missing
 from signimit.benchmark.running import SessionTask, run_task
 from signimit.exceptions import InvalidInputError
 
+pytestmark = pytest.mark.slow
 distributed: Any = importlib.import_module("distributed")
 
 

@@ -26,6 +26,7 @@ def test_demonstrations_that_are_made_can_be_learned_from(run: Any, demonstratio
     assert len(truth) == len(si.DemonstrationSet.load(demonstrations / "demonstrations.npz")) == 12
 
 
+@pytest.mark.slow
 def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
     run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -44,6 +45,7 @@ def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
     assert len(results["reproductions"]) == 9
 
 
+@pytest.mark.slow
 def test_render_says_what_was_understood_and_films_it(
     run: Any, demonstrations: Path, model: Path, tmp_path: Path
 ) -> None:

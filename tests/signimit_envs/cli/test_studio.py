@@ -21,6 +21,7 @@ def test_others_are_let_in_only_by_who_knows(run: Any, tmp_path: Path) -> None:
     assert said.startswith("studio: --host: expected 127.0.0.1, or --i-know beside it")
 
 
+@pytest.mark.slow
 def test_an_interrupt_ends_it_quietly_and_what_was_drawn_is_there_when_it_is_opened_again(tmp_path: Path) -> None:
     pytest.importorskip("fastapi", reason="the studio needs signimit[studio]")
     httpx = pytest.importorskip("httpx")

@@ -58,6 +58,7 @@ def report(result: SessionResult, people: People[StrokeLibrary]) -> dict[str, An
     return session_report(result, people)
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_session_and_progress_is_told_command_by_command(
     result: SessionResult, people: People[StrokeLibrary], report: dict[str, Any]
 ) -> None:

@@ -10,6 +10,7 @@ import pytest
 from signimit_envs.studio.load import measure_speed, resident_memory
 
 
+@pytest.mark.slow
 def test_every_wait_and_every_frame_is_counted(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("signimit_envs.studio.web.guard.Bucket.take", lambda self: True)
     monkeypatch.setattr("signimit_envs.studio.load._SETTLE", 0.0)

@@ -18,6 +18,7 @@ def operations(page: Any) -> list[Any]:
     return [found.ok() for found in schema.exclude(path_regex=SLOW).get_all_operations()]
 
 
+@pytest.mark.slow
 def test_no_request_that_the_description_allows_makes_the_server_fail(
     operations: list[Any], page: Any, session: Any
 ) -> None:

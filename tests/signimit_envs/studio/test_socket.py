@@ -73,6 +73,7 @@ def test_frames_come_to_who_watches_with_what_is_in_them(page: Any, socket: Any)
     assert picture.startswith(b"\xff\xd8") or (why_not and not picture)
 
 
+@pytest.mark.slow
 def test_two_pages_get_the_frames_of_one_simulation(page: Any, socket: Any, taught_id: str) -> None:
     request = {"movement": 0, "focus": 0}
     page.post(f"sessions/{taught_id}/table", {})

@@ -117,6 +117,7 @@ def test_an_episode_is_cut_after_twelve_seconds(env: gym.Env[Any, Any]) -> None:
     assert env.spec.max_episode_steps == 600
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("env", "kind"),
     [*((name, gym.VectorizeMode.SYNC) for name in ENV_IDS), (ENV_IDS[0], gym.VectorizeMode.ASYNC)],

@@ -11,6 +11,7 @@ import pytest
 ENV_ID = "signimit_envs:signimit/TabletopHand-v0"  # by this name a spawned process registers it
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("mode", "count"), [("sync", 8), ("async", 2)])
 def test_every_environment_does_what_it_would_do_alone(mode: Literal["sync", "async"], count: int) -> None:
     """From its own seed, with its own requests, in this process and in spawned ones."""

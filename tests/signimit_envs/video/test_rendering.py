@@ -154,6 +154,7 @@ def test_closing_a_view_twice_is_allowed_and_it_opens_again(view: OffscreenView,
     np.testing.assert_array_equal(view.frame(data), plain)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("view")
 def test_an_environment_that_nobody_closes_leaves_quietly() -> None:
     program = (

@@ -153,6 +153,7 @@ def test_a_session_in_made_up_signs_has_no_prompts_and_no_built_in_people(page: 
     assert "one in made-up signs" in refused.json()["error"]
 
 
+@pytest.mark.slow
 def test_the_simulated_hand_draws_the_right_movement_about_the_right_object_for_a_pair_never_shown(
     page: Any, taught_id: str
 ) -> None:
@@ -227,6 +228,7 @@ def test_similarities_can_be_hovered_over(page: Any, taught_id: str) -> None:
     assert labels == sorted(labels)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("opengl")
 def test_pictures_and_films_are_what_they_say(page: Any, session: Json) -> None:
     base = f"sessions/{session['id']}"

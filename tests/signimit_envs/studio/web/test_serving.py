@@ -63,6 +63,7 @@ def test_a_port_that_is_taken_is_said(tmp_path: Path) -> None:
             pass
 
 
+@pytest.mark.slow
 def test_a_missing_package_is_named_with_what_to_type(tmp_path: Path) -> None:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     command = [sys.executable, "-c", WITHOUT, str(tmp_path)]
@@ -73,6 +74,7 @@ def test_a_missing_package_is_named_with_what_to_type(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.slow
 def test_a_session_can_play_itself(tmp_path: Path) -> None:
     async def play() -> History:
         studio = Studio(tmp_path)
