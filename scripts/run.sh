@@ -2,7 +2,7 @@
 # Runs a program of this repository in an environment of its own (.venv), which the first call makes.
 #
 #   sh scripts/run.sh reproduce [options]    the main job; any other scripts/NAME.py goes by its name too, with _ or -
-#   sh scripts/run.sh test [pytest options]  the tests
+#   sh scripts/run.sh test [pytest options]  the tests, in two processes; -m 'not slow' is a quick run of most
 #
 # PYTHON chooses the interpreter (3.11 or newer), e.g. PYTHON=python3.12 sh scripts/run.sh test
 set -eu
