@@ -1,4 +1,4 @@
-"""Which tests stay together when processes share them out: those of a file, and all that keep an eye on the clock."""
+"""Distribution of the tests over processes (pytest-xdist), and the marker of the browser tests."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any
 
 import pytest
 
-WORKERS = 2  # of `-n auto`; a browser and a simulation in real time want a core beside each
+WORKERS = 2  # of `-n auto`, at most: more would take processor time from the browser and from simulation in real time
 BROWSER = "tests/studio/"
-REAL_TIME = (BROWSER, "tests/signimit_envs/studio/")  # one studio and one browser at a time
+REAL_TIME = (BROWSER, "tests/signimit_envs/studio/")  # stay in one process: one studio and one browser at a time
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """What needs a browser is slow."""
+    """Mark every browser test as slow."""
     for item in items:
         if item.nodeid.startswith(BROWSER):
             item.add_marker(pytest.mark.slow)
@@ -22,7 +22,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 @pytest.hookimpl(optionalhook=True)  # pytest-xdist may be missing
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
-    """Files that are named are run here: they would be done before workers have started."""
+    """Return the number of processes of ``-n auto``: none beside this one for named files, which start sooner so."""
     if all(Path(argument.partition("::")[0]).is_file() for argument in config.args):
         return 0
     return min(WORKERS, os.cpu_count() or 1)
@@ -30,7 +30,7 @@ def pytest_xdist_auto_num_workers(config: pytest.Config) -> int:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Whatever ``--dist`` says, the tests of a file share its fixtures, and real-time tests do not share a machine."""
+    """Give each file to one process, as its tests share fixtures, whatever ``--dist`` says; real-time files to one."""
     from xdist.scheduler import LoadScopeScheduling
 
     class LoadFileScheduling(LoadScopeScheduling):  # type: ignore[misc]
