@@ -27,7 +27,7 @@ class Ambiguity(NamedTuple):
     """A demonstration that could have been about another object.
 
     Attributes:
-        demonstration: Its number.
+        demonstration: Its index.
         objects: The objects it may be about, the most probable first.
         probabilities: How probable each is.
         apart: Distance between the first two objects, m; small where the scene, not the learner, is to blame.
@@ -39,9 +39,11 @@ class Ambiguity(NamedTuple):
     apart: float
 
     def __str__(self) -> str:
-        """Return the sentence."""
+        """Return the sentence; it counts from 1."""
         named = ", ".join(f"{object_name(i)} {p:.0%}" for i, p in zip(self.objects, self.probabilities, strict=True))
-        return f"Demonstration {self.demonstration} is ambiguous: {named}; the first two are {self.apart:.2f} m apart."
+        return (
+            f"Demonstration {self.demonstration + 1} is ambiguous: {named}; the first two are {self.apart:.2f} m apart."
+        )
 
 
 class Reasons(NamedTuple):
@@ -51,9 +53,9 @@ class Reasons(NamedTuple):
         focus_probability: Of each object in each demonstration, given all other answers, shape (N, O).
         movement_probability: Of each movement found, and last of none of them, shape (N, K + 1).
         ambiguous: Demonstrations whose object is in doubt.
-        unsure_movements: Numbers of demonstrations whose movement is in doubt.
+        unsure_movements: Indices of demonstrations whose movement is in doubt.
         word_orders: All word orders, the best first, each with how much less it explains than the best, nats.
-        text: The same in words.
+        text: The same in words, which count from 1.
     """
 
     focus_probability: NDArray[np.float64]
@@ -89,8 +91,8 @@ class Query(NamedTuple):
 
 
 def object_name(index: int) -> str:
-    """Return the colour of an object, or its number where colours have run out."""
-    return OBJECT_NAMES[index] if index < len(OBJECT_NAMES) else f"number {index}"
+    """Return the colour of an object, or its number, from 1, where colours have run out."""
+    return OBJECT_NAMES[index] if index < len(OBJECT_NAMES) else f"number {index + 1}"
 
 
 def ordinal(position: int) -> str:
@@ -106,7 +108,7 @@ def summarise(understanding: Understanding, objects: int) -> str:
         objects: Number of objects in a scene.
 
     Returns:
-        Lines of text; demonstrations are numbered from 0.
+        Lines of text; demonstrations and movements are counted from 1, where their indices count from 0.
     """
     labels, focus, order = understanding[:3]
     count = int(labels.max()) + 1
@@ -114,15 +116,15 @@ def summarise(understanding: Understanding, objects: int) -> str:
     lines = [f"{shown} {count} movement{'s' * (count != 1)}."]
     for m in range(count):
         numbers = np.flatnonzero(labels == m).tolist()
-        members = ", ".join(f"{t} (about {object_name(int(focus[t]))})" for t in numbers)
-        lines.append(f"  Movement {m}: demonstration{'s' * (len(numbers) != 1)} {members}.")
+        members = ", ".join(f"{t + 1} (about {object_name(int(focus[t]))})" for t in numbers)
+        lines.append(f"  Movement {m + 1}: demonstration{'s' * (len(numbers) != 1)} {members}.")
     lines.append(
         f"The {ordinal(order.focus)} word names the object, the {ordinal(order.movement)} word names the movement."
     )
     meanings = [(order.focus, f"the {object_name(i)} object", focus == i) for i in range(objects)]
-    meanings += [(order.movement, f"movement {m}", labels == m) for m in range(count)]
+    meanings += [(order.movement, f"movement {m + 1}", labels == m) for m in range(count)]
     for word, meaning, shows_it in meanings:
-        numbers = np.flatnonzero(shows_it).tolist()
+        numbers = (np.flatnonzero(shows_it) + 1).tolist()
         named = f"demonstration{'s' * (len(numbers) != 1)} {', '.join(map(str, numbers))}"
         seen = f"  Signs like the {ordinal(word)} of {named} mean {meaning}."
         lines.append(seen if numbers else f"  No sign was seen for {meaning}.")
@@ -156,10 +158,10 @@ def explain_understanding(understanding: Understanding, objects: NDArray[np.floa
         words = f"{ordinal(second.focus)} word the object and {ordinal(second.movement)} the movement"
         lines.append(f"The next best word order, {words}, explains {loss:.1f} nats less.")
     lines += map(str, ambiguous)
-    names = [f"movement {m}" for m in range(movement.shape[1] - 1)] + ["a new one"]
+    names = [f"movement {m + 1}" for m in range(movement.shape[1] - 1)] + ["a new one"]
     for t in unsure:
         named = [f"{name} {p:.0%}" for name, p in zip(names, movement[t], strict=True) if p >= DOUBT]
-        lines.append(f"Demonstration {t} may show {' or '.join(named)}.")
+        lines.append(f"Demonstration {t + 1} may show {' or '.join(named)}.")
     if not ambiguous and not unsure:
         lines.append(f"No demonstration is in doubt: nothing else is as probable as {DOUBT:.0%}.")
     orders = tuple((order, loss) for loss, order in ranked)

@@ -47,7 +47,7 @@ def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.Ca
     exec(BLOCKS[2], names)
     printed = capsys.readouterr().out
     assert "8 demonstrations show 2 movements." in printed
-    assert "Movement 0: demonstrations 0 (about red), 2 (about green), 4 (about red), 6 (about green)." in printed
+    assert "Movement 1: demonstrations 1 (about red), 3 (about green), 5 (about red), 7 (about green)." in printed
     assert printed.splitlines()[-1].startswith("0 1 ")
     exec(BLOCKS[3], names)
     assert "No demonstration is in doubt" in capsys.readouterr().out

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from signimit.exceptions import MissingDependencyError
 from signimit.explanation import DOUBT, Reasons, object_name, ordinal
 from signimit.learning import ImitationModel, Movement
-from signimit.plots.paper import FRAME, draw_sign, object_colour
+from signimit.plots.paper import FRAME, View, draw_sign, find_view, object_colour
 
 try:
     from matplotlib.figure import Figure
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import SubFigure
 
-_HALF_VIEW = 0.2  # m, half of what a panel of a movement shows
 _HATCHES = ("", "//", "..", "xx", "\\\\", "++")  # objects are told apart without their colours
 
 
@@ -50,7 +49,7 @@ def _draw_beliefs(figure: SubFigure, model: ImitationModel, reasons: Reasons) ->
     upper, lower = figure.subplots(2, 1, sharex=True)
     at = np.arange(len(order))
     _stack(upper, reasons.focus_probability[order], [object_name(i) for i in range(reasons.focus_probability.shape[1])])
-    names = [f"movement {m}" for m in range(len(model.movements))] + ["another"]
+    names = [f"movement {m + 1}" for m in range(len(model.movements))] + ["another"]
     _stack(lower, reasons.movement_probability[order], names, grey=True)
     ambiguous = {doubt.demonstration: doubt for doubt in reasons.ambiguous}
     for x, t in zip(at, order.tolist(), strict=True):
@@ -60,7 +59,7 @@ def _draw_beliefs(figure: SubFigure, model: ImitationModel, reasons: Reasons) ->
             lower.text(x, 1.02, "?", ha="center", va="bottom", fontsize=8)
     upper.set_ylabel("object")
     lower.set_ylabel("movement")
-    lower.set_xticks(at, [str(t) for t in order], fontsize=7)
+    lower.set_xticks(at, [str(t + 1) for t in order], fontsize=7)
     lower.set_xlabel("demonstration, sorted by what was found")
     figure.suptitle(
         f"How probable each object and movement is. A ? marks what is in doubt (a second with {DOUBT:.0%}),\n"
@@ -88,6 +87,7 @@ def _draw_lexicon(figure: SubFigure, model: ImitationModel) -> None:
     """Draw the signs of each meaning over each other; below the movements themselves, seen from their objects."""
     objects = model.demonstrations.objects.shape[1]
     columns = max(objects, len(model.movements))
+    view = find_view([path for movement in model.movements for path in movement.paths])
     axes = figure.subplots(3, columns, squeeze=False)
     for panel in axes.ravel():
         panel.set(xticks=[], yticks=[])
@@ -98,9 +98,9 @@ def _draw_lexicon(figure: SubFigure, model: ImitationModel) -> None:
         axes[0, i].set_title(f"{object_name(i)}, {len(members)} times", fontsize=9, color=object_colour(i))
     for m, movement in enumerate(model.movements):
         _draw_word(axes[1, m], model, model.word_order.movement, np.array(movement.members))
-        axes[1, m].set_title(f"movement {m}, {len(movement.members)} times", fontsize=9)
+        axes[1, m].set_title(f"movement {m + 1}, {len(movement.members)} times", fontsize=9)
         axes[2, m].set_axis_on()
-        _draw_movement(axes[2, m], movement)
+        _draw_movement(axes[2, m], movement, view)
     figure.suptitle(
         f"The lexicon: {ordinal(model.word_order.focus)} words name objects (above), "
         f"{ordinal(model.word_order.movement)} words movements (below them)",
@@ -115,12 +115,12 @@ def _draw_word(panel: Axes, model: ImitationModel, word: int, members: NDArray[A
         line.set(alpha=0.6, linewidth=1.0)
 
 
-def _draw_movement(panel: Axes, movement: Movement) -> None:
+def _draw_movement(panel: Axes, movement: Movement, view: View) -> None:
     """Draw all members, each seen from the object it is about, which is the cross."""
     for path in movement.paths:
         panel.plot(*path.T, color="#1b1b1b", linewidth=0.7, alpha=0.6)
     panel.plot(0, 0, "+", color=FRAME, markersize=11, markeredgewidth=2.5)
-    panel.set(xlim=(-_HALF_VIEW, _HALF_VIEW), ylim=(-_HALF_VIEW, _HALF_VIEW), aspect="equal")
+    panel.set(xlim=view[0], ylim=view[1], aspect="equal")
 
 
 def _draw_orders(panel: Axes, reasons: Reasons) -> None:

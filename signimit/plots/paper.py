@@ -1,4 +1,4 @@
-"""The paper's figures 4 to 7, and the memberships as they form.
+"""The paper's figures 4 to 7, and the memberships as they form. Figures count from 1, as people do.
 
 Needs matplotlib, which the extra ``scripts`` installs; nothing else in signimit imports this module.
 """
@@ -6,7 +6,7 @@ Needs matplotlib, which the extra ``scripts`` installs; nothing else in signimit
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,10 +14,13 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import MissingDependencyError
 from signimit.explanation import object_name
-from signimit.paths import box_centre, half_size
+from signimit.paths import arc_lengths, box_centre, half_size
 
 try:
+    from matplotlib import colormaps
+    from matplotlib.colors import LogNorm, Normalize
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 except ImportError:
     raise MissingDependencyError("matplotlib", "scripts", "Drawing figures") from None
 if TYPE_CHECKING:
@@ -27,9 +30,13 @@ if TYPE_CHECKING:
 OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
 OBJECT_MARKERS = ("o", "s", "^", "D", "P", "h")  # the colour-blind tell the objects apart by their shapes
 PATH_COLOURS = ("#1b1b1b", "#7b3294", "#0571b0", "#b35806")  # repeated attempts; no colour of an object
+PATH_STYLES = ("-", "--", "-.", ":")  # the same attempts on paper without colours
 FRAME = "#e69f00"
-_HALF_VIEW = 0.30  # m, half of what a panel about an object shows
+_LEAST_REACH = 0.2  # m to each side of the object that a panel shows at least
+_MARGIN = 0.03  # m between paths and the edge of their panel
+_UNDEFINED = "#c8c8c8"  # of the similarity of a demonstration with itself
 Paths = Sequence[NDArray[np.float64]]
+View = tuple[tuple[float, float], tuple[float, float]]
 
 
 def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, focus: ArrayLike) -> Figure:
@@ -46,31 +53,32 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     movement, about = np.asarray(labels), np.asarray(focus)
     order = np.lexsort((about, movement))
     words, objects = len(demonstrations[0].signs), demonstrations.objects.shape[1]
-    figure, axes = _panels(words + objects, len(order), 1.15, heights=[0.8] * words + [1.15] * objects)
+    view = find_view([d.hand - place for d in demonstrations for place in d.objects])
+    figure, axes = _panels(words + objects, len(order), 1.3, heights=[0.8] * words + [1.3 * _aspect(view)] * objects)
     for column, t in enumerate(order):
         demonstration = demonstrations[int(t)]
         for word, sign in enumerate(demonstration.signs):
             draw_sign(axes[word, column], sign)
         for i, place in enumerate(demonstration.objects):
             panel = axes[words + i, column]
-            _draw_about(panel, [demonstration.hand - place], i, _HALF_VIEW)
+            _draw_about(panel, [demonstration.hand - place], i, view)
             if i == about[t]:
                 _frame(panel)
-        axes[0, column].set_title(f"{t}\nmovement {movement[t]}", fontsize=8)
+        axes[0, column].set_title(f"{t + 1}\nmovement {movement[t] + 1}", fontsize=8)
     for word in range(words):
         axes[word, 0].set_ylabel(f"sign {word + 1}", fontsize=9)
     for i in range(objects):
         axes[words + i, 0].set_ylabel(f"seen from {object_name(i)}", fontsize=9, color=object_colour(i))
     figure.suptitle(
         f"{len(order)} demonstrations, sorted by the movement found; the object found is framed. "
-        f"Panels are {2 * _HALF_VIEW:.1f} m wide, the hand starts at the dot.",
+        f"Panels are {np.ptp(view[0]):.1f} m wide, the hand starts at the dot.",
         fontsize=10,
     )
     return figure
 
 
 def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> Figure:
-    """Draw the similarity of demonstrations in all pairs of frames (the paper's figure 5).
+    """Draw the similarity of demonstrations in all pairs of frames (the paper's figure 5), on a logarithmic scale.
 
     Args:
         similarities: γ_{t;k;i;j}, shape (N, N, O, O), 1/rad².
@@ -80,15 +88,23 @@ def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> F
     shown = similarities[np.ix_(order, order)].copy()
     shown[np.arange(len(order)), np.arange(len(order))] = 0.0
     objects = shown.shape[2]
-    figure, axes = _panels(objects, objects, 2.6)
-    top = float(shown.max())
+    figure, axes = _panels(objects, objects, 2.6, heights=2.3, layout="compressed")
+    scale = LogNorm(float(shown[shown > 0].min()), float(shown.max()))
     for i in range(objects):
         for j in range(objects):
-            image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, top)
+            image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, scale)
         axes[i, 0].set_ylabel(f"t seen from {object_name(i)}", color=object_colour(i))
         axes[0, i].set_title(f"k seen from {object_name(i)}", color=object_colour(i), fontsize=10)
-    figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.6, label="similarity γ, 1/rad²")
-    figure.suptitle("Similarity of demonstrations t (rows) and k (columns) in each pair of frames", fontsize=11)
+    bar = figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.6, label="similarity γ, 1/rad²")
+    round_numbers = np.multiply.outer(10.0 ** np.arange(-4, 5), [1.0, 2.0, 5.0]).ravel()
+    ticks = round_numbers[(round_numbers >= bar.vmin) & (round_numbers <= bar.vmax)]
+    bar.set_ticks(ticks.tolist(), labels=[f"{tick:g}" for tick in ticks])
+    bar.ax.minorticks_off()
+    figure.suptitle(
+        "Similarity of demonstrations t (rows) and k (columns) in each pair of frames.\n"
+        "White lines part the movements found; grey: a demonstration with itself, undefined.",
+        fontsize=10,
+    )
     return figure
 
 
@@ -102,7 +118,7 @@ def draw_maximum_similarity(similarity: NDArray[np.float64], labels: ArrayLike) 
     order, cuts = _sorted_by(labels)
     figure, axes = _panels(1, 1, 4.6)
     shown = similarity[np.ix_(order, order)]
-    image = _draw_matrix(axes[0, 0], shown, order, cuts, float(shown.max()))
+    image = _draw_matrix(axes[0, 0], shown, order, cuts, Normalize(0.0, float(shown.max())))
     axes[0, 0].set(xlabel="demonstration k", ylabel="demonstration t")
     axes[0, 0].set_title("Maximum similarity; white lines part the movements found", fontsize=10)
     figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.8, label="similarity γ, 1/rad²")
@@ -114,35 +130,42 @@ def draw_reproductions(
     obeyed: Mapping[tuple[int, int], Sequence[bool | None]],
     movements: Sequence[str],
     unseen: frozenset[tuple[int, int]],
+    imitator: str = "",
 ) -> Figure:
     """Draw what the hand did for each pair of signs, seen from the object asked for (the paper's figure 7).
 
     Args:
         paths: Hand paths in that object's frame, each (T, 2), m, by (movement, focus).
-        obeyed: Whether each of these paths did what was asked for, none if nobody judged it; those that did not are
-            dashed.
+        obeyed: Whether each of these paths did what was asked for, none if nobody judged it; those that did not end
+            with a cross.
         movements: Names of the movements.
         unseen: The pairs that were never demonstrated; their panels are framed.
+        imitator: Whose reproductions these are, for the title.
     """
     objects = 1 + max(focus for _, focus in paths)
-    figure, axes = _panels(len(movements), objects, 2.5)
+    view = find_view([path for attempts in paths.values() for path in attempts])
+    figure, axes = _panels(len(movements), objects, 3.0, heights=3.0 * _aspect(view) + 0.1, layout="compressed")
     for (movement, focus), attempts in paths.items():
         panel = axes[movement, focus]
         verdicts = obeyed[movement, focus]
-        _draw_about(panel, attempts, focus, _HALF_VIEW + 0.05, [":" if right is False else "-" for right in verdicts])
+        _draw_about(panel, attempts, focus, view, verdicts)
         note = _verdict_note(verdicts)
         if (movement, focus) in unseen:
             _frame(panel)
             note = f"never demonstrated, {note}"
-        panel.text(0.03, 0.97, note, transform=panel.transAxes, va="top", fontsize=8)
+        panel.set_title(note, fontsize=9, loc="left", pad=3)
     for row, name in enumerate(movements):
         axes[row, 0].set_ylabel(name, fontsize=11)
     for focus in range(objects):
-        axes[0, focus].set_title(f"about {object_name(focus)}", color=object_colour(focus), fontsize=11)
-    count = sum(map(len, paths.values()))
-    width = 2 * (_HALF_VIEW + 0.05)
+        axes[-1, focus].set_xlabel(f"about {object_name(focus)}", color=object_colour(focus), fontsize=11)
+    most = max(map(len, paths.values()))
+    handles = [Line2D([], [], **_path_look(n), label=f"start {n + 1}") for n in range(min(most, 8))]
+    marks = (("o", "where the hand starts"), (">", "direction"), ("x", "end of a path that did not obey"))
+    handles += [Line2D([], [], color=PATH_COLOURS[0], linestyle="", marker=m, label=text) for m, text in marks]
+    figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=9, frameon=False)
     figure.suptitle(
-        f"{count} reproductions by the simulated arm, seen from the object asked for. Panels are {width:.1f} m wide.",
+        f"{f'{imitator}: ' if imitator else ''}{sum(map(len, paths.values()))} reproductions by the simulated arm, "
+        f"seen from the object asked for. Panels are {np.ptp(view[0]):.1f} m wide.",
         fontsize=11,
     )
     return figure
@@ -160,37 +183,47 @@ def draw_memberships(history: NDArray[np.float64], labels: ArrayLike) -> Figure:
 
     Args:
         history: M before the first step and after each, shape (S + 1, N, N).
-        labels: Movement of each demonstration, shape (N,).
+        labels: Movement of each demonstration, shape (N,); the groups are named by the movements they became.
     """
     order, _ = _sorted_by(labels)
     movement = np.asarray(labels)
-    columns = 4
+    columns, last = 4, len(history) - 1
     figure, axes = _panels(-(-len(order) // columns), columns, 2.2, heights=1.5)
-    winners = list(dict.fromkeys(history[-1].argmax(axis=0)[order].tolist()))
+    group = history[-1].argmax(axis=0)
+    winners = list(dict.fromkeys(group[order].tolist()))
     for panel, t in zip(axes.ravel(), order, strict=False):
         for m in range(history.shape[1]):
             if m not in winners:
                 panel.plot(history[:, m, t], color="#bbbbbb", linewidth=0.7)
         for number, m in enumerate(winners):
-            style = ("-", "--", "-.", ":")[number % 4]
-            panel.plot(history[:, m, t], style, color=_distinct(number), label=f"group {m}")
-        panel.set(ylim=(-0.03, 1.03), xlim=(0, len(history) - 1), xticks=[0, 25, 50], yticks=[0, 1])
-        panel.set_title(f"demonstration {t} (movement {movement[t]})", fontsize=8)
+            became = " and ".join(str(k + 1) for k in np.unique(movement[group == m]))
+            style = PATH_STYLES[number % len(PATH_STYLES)]
+            panel.plot(history[:, m, t], style, color=_distinct(number), label=f"movement {became} (group {m + 1})")
+        panel.set(ylim=(-0.03, 1.03), xlim=(0, last), xticks=[0, last // 2, last], yticks=[0, 1])
+        panel.set_title(f"demonstration {t + 1} (movement {movement[t] + 1})", fontsize=8)
         panel.tick_params(labelsize=7)
     for panel in axes.ravel()[len(order) :]:
         panel.set_axis_off()
-    handles, names = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside lower center", ncols=min(len(names), 6), fontsize=8, frameon=False)
+    handles = [*axes[0, 0].get_legend_handles_labels()[0], Line2D([], [], color="#bbbbbb", label="the other groups")]
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), 5), fontsize=8, frameon=False)
+    for panel in axes[:, 0]:
+        panel.set_ylabel("membership", fontsize=8)
+    for panel in axes.ravel()[: len(order)][-columns:]:
+        panel.set_xlabel("step", fontsize=8)
     figure.suptitle("Membership of each demonstration in each group, over the steps of Algorithm 1", fontsize=10)
     return figure
 
 
 def _panels(
-    rows: int, columns: int, size: float, heights: float | list[float] | None = None
+    rows: int,
+    columns: int,
+    size: float,
+    heights: float | list[float] | None = None,
+    layout: Literal["constrained", "compressed"] = "constrained",
 ) -> tuple[Figure, NDArray[np.object_]]:
     """Make a figure of panels without ticks, ``size`` inches wide each."""
     each = heights if isinstance(heights, list) else [heights or size] * rows
-    figure = Figure(figsize=(columns * size + 0.8, sum(each) + 0.9), layout="constrained")
+    figure = Figure(figsize=(columns * size + 0.8, sum(each) + 0.9), layout=layout)
     axes = figure.subplots(rows, columns, squeeze=False, gridspec_kw={"height_ratios": each})
     for panel in axes.ravel():
         panel.set(xticks=[], yticks=[])
@@ -205,25 +238,65 @@ def draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
         spine.set_visible(False)
 
 
-def _draw_about(panel: Axes, paths: Paths, focus: int, half_view: float, styles: Sequence[str] = ("-",)) -> None:
-    """Draw paths, each (T, 2), m, about an object at the origin."""
+def _draw_about(panel: Axes, paths: Paths, focus: int, view: View, obeyed: Sequence[bool | None] | None = None) -> None:
+    """Draw paths, each (T, 2), m, about an object at the origin; with arrows and crosses if they are judged."""
     for number, path in enumerate(paths):
-        colour = PATH_COLOURS[number % len(PATH_COLOURS)]
-        panel.plot(*path.T, styles[number % len(styles)], color=colour, linewidth=0.9, alpha=0.85)
-        panel.plot(*path[0], ".", color=colour, markersize=6)
+        look = _path_look(number)
+        panel.plot(*path.T, **look, linewidth=1.0, alpha=0.85)
+        panel.plot(*path[0], ".", color=look["color"], markersize=7)
+        if obeyed is None:
+            continue
+        _draw_arrow(panel, path, 0.35 + 0.1 * (number % 5), look["color"])
+        if obeyed[number] is False:
+            panel.plot(*path[-1], "x", color=look["color"], markersize=7, markeredgewidth=1.6)
     marker = OBJECT_MARKERS[focus % len(OBJECT_MARKERS)]
-    panel.plot(0, 0, marker, color=object_colour(focus), markersize=9, markeredgecolor="white", zorder=3)
-    panel.set(xlim=(-half_view, half_view), ylim=(-half_view, half_view), aspect="equal")
+    panel.plot(
+        0,
+        0,
+        marker,
+        color=object_colour(focus),
+        markersize=7 if obeyed is None else 9,
+        markeredgecolor="white",
+        zorder=3,
+    )
+    panel.set(xlim=view[0], ylim=view[1], aspect="equal")
+
+
+def _draw_arrow(panel: Axes, path: NDArray[np.float64], share: float, colour: str) -> None:
+    """Draw an arrow head along a path, (T, 2), at a share of its length; none on a path that rests."""
+    way = arc_lengths(path)
+    tip = int(np.searchsorted(way, share * way[-1]))
+    tail = int(np.searchsorted(way, way[tip] - 0.01, side="right")) - 1  # m; shorter is no direction
+    if tail >= 0:
+        style = {"arrowstyle": "-|>", "color": colour, "mutation_scale": 13, "shrinkA": 0, "shrinkB": 0}
+        panel.annotate("", path[tip], path[tail], arrowprops=style)
+
+
+def _path_look(number: int) -> dict[str, Any]:
+    """Return the colour and the line style of one of 16 starts, no two of which look alike."""
+    turn = number + number // len(PATH_STYLES)
+    return {"color": PATH_COLOURS[turn % len(PATH_COLOURS)], "linestyle": PATH_STYLES[number % len(PATH_STYLES)]}
+
+
+def find_view(paths: Paths) -> View:
+    """Return the limits of x and of y, m, within which no path, (T, 2), m, about an object at the origin is cut off."""
+    points = np.concatenate([np.concatenate(paths), [[-_LEAST_REACH] * 2, [_LEAST_REACH] * 2]])
+    (left, low), (right, high) = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
+    return (float(left), float(right)), (float(low), float(high))
+
+
+def _aspect(view: View) -> float:
+    return float(np.ptp(view[1]) / np.ptp(view[0]))
 
 
 def _draw_matrix(
-    panel: Axes, matrix: NDArray[np.float64], order: NDArray[np.intp], cuts: NDArray[np.intp], top: float
+    panel: Axes, matrix: NDArray[np.float64], order: NDArray[np.intp], cuts: NDArray[np.intp], scale: Normalize
 ) -> AxesImage:
-    image = panel.imshow(matrix, cmap="viridis", vmin=0.0, vmax=top)
+    image = panel.imshow(matrix, cmap=colormaps["viridis"].with_extremes(bad=_UNDEFINED, under=_UNDEFINED), norm=scale)
     for cut in cuts:
         panel.axhline(cut - 0.5, color="white", linewidth=1.0)
         panel.axvline(cut - 0.5, color="white", linewidth=1.0)
-    numbers = [str(t) for t in order]
+    numbers = [str(t + 1) for t in order]
     panel.set_xticks(range(len(order)), numbers, fontsize=6)
     panel.set_yticks(range(len(order)), numbers, fontsize=6)
     return image

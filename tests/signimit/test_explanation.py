@@ -15,14 +15,14 @@ def test_what_was_understood_is_said() -> None:
     text = summarise(Understanding(np.array([0, 1, 0]), np.array([0, 2, 2]), WordOrder(focus=0, movement=1)), 3)
     assert text.splitlines() == [
         "3 demonstrations show 2 movements.",
-        "  Movement 0: demonstrations 0 (about red), 2 (about blue).",
-        "  Movement 1: demonstration 1 (about blue).",
+        "  Movement 1: demonstrations 1 (about red), 3 (about blue).",
+        "  Movement 2: demonstration 2 (about blue).",
         "The first word names the object, the second word names the movement.",
-        "  Signs like the first of demonstration 0 mean the red object.",
+        "  Signs like the first of demonstration 1 mean the red object.",
         "  No sign was seen for the green object.",
         "  Signs like the first of demonstrations 1, 2 mean the blue object.",
-        "  Signs like the second of demonstrations 0, 2 mean movement 0.",
-        "  Signs like the second of demonstration 1 mean movement 1.",
+        "  Signs like the second of demonstrations 1, 3 mean movement 1.",
+        "  Signs like the second of demonstration 2 mean movement 2.",
     ]
 
 
@@ -68,14 +68,14 @@ def test_two_objects_close_together_are_named_with_their_distance() -> None:
     (doubt,) = why.ambiguous
     assert (doubt.demonstration, doubt.objects) == (1, (1, 0))
     assert doubt.apart == pytest.approx(0.05)
-    assert "Demonstration 1 is ambiguous: green 55%, red 40%; the first two are 0.05 m apart." in why.text
+    assert "Demonstration 2 is ambiguous: green 55%, red 40%; the first two are 0.05 m apart." in why.text
 
 
 def test_a_movement_in_doubt_is_told() -> None:
     belief = np.array([[0.99, 0.01, 0.0], [0.3, 0.5, 0.2]])
     why = explain_understanding(understood(movement_probability=belief), OBJECTS)
     assert why.unsure_movements == (1,)
-    assert "Demonstration 1 may show movement 0 30% or movement 1 50% or a new one 20%." in why.text
+    assert "Demonstration 2 may show movement 1 30% or movement 2 50% or a new one 20%." in why.text
 
 
 def test_word_orders_are_ranked_by_what_they_lose() -> None:

@@ -6,20 +6,23 @@ from pathlib import Path
 
 import numpy as np
 
+from signimit.benchmark.splits import crowded_scene
 from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.choosing import Source, choose_people
+from signimit.teaching.scenes import sample_scene
 from signimit_envs.sessions.report import truth_text
 from signimit_envs.sessions.session import SessionPlan
 
 
 def main(
     out: Path = Path("out/demonstrations"),
-    seed: int = 35,
+    seed: int = 0,
     signs: Path | None = None,
     signer: str | None = None,
     movements: Path | None = None,
     mover: str | None = None,
+    crowded: bool = False,
 ) -> None:
     """Let two people make the paper's 12 demonstrations.
 
@@ -33,8 +36,10 @@ def main(
         signer: Writer of that library; left out, one is drawn.
         movements: Stroke library of real people who show the movements; left out, a synthetic person.
         mover: Writer of that library; left out, one is drawn.
+        crowded: Put the objects at a quarter of the usual distances, within each other's drawings: what a demonstration
+            was about is then in doubt.
     """
-    plan = SessionPlan(seed=seed)
+    plan = SessionPlan(seed=seed, shown_scenes=crowded_scene if crowded else sample_scene)
     rng = np.random.default_rng([seed, 1])
     people = choose_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
     session = plan.compose(people)

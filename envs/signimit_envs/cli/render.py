@@ -54,7 +54,7 @@ def main(
     strokes = [pick(library, word, sample) for word in words]
     with closing(TabletopHandEnv(objects=count)) as env:
         answer = answer_signs(learned, strokes, places, start, seconds, env)
-    understood = f"movement {answer.movement} about {object_name(answer.focus)}, confidence {answer.confidence:.2f}"
+    understood = f"movement {answer.movement + 1} about {object_name(answer.focus)}, confidence {answer.confidence:.2f}"
     print(f"Understood: {understood}.")
     captions = (f"The signs {' '.join(words)} are made", f"The robot understood {understood}")
     film = film_shots(list(show_answer(strokes, places, answer, captions)), count)

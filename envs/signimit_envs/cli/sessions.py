@@ -9,6 +9,7 @@ import numpy as np
 
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
+from signimit.learners import DEFAULT_METHOD
 from signimit.policies import DEFAULT_POLICY
 from signimit.teaching.people.choosing import Source, choose_people
 from signimit_envs.sessions.many_sessions import SessionOutcome, session_outcome, study_report, study_table
@@ -18,7 +19,7 @@ from signimit_envs.sessions.session import SessionPlan, run_session
 def main(
     sessions: int = 20,
     first_seed: int = 0,
-    method: str = "paper",
+    method: str = DEFAULT_METHOD,
     policy: str = DEFAULT_POLICY,
     attempts: int = 1,
     seconds: float = 10.0,
@@ -31,8 +32,8 @@ def main(
     Args:
         sessions: How many.
         first_seed: Seed of the first; the others follow.
-        method: How to learn.
-        policy: Kind of policy that moves the hand.
+        method: How to learn; "paper" is the paper.
+        policy: Kind of policy that moves the hand; "knn" is the paper's.
         attempts: How often each of the nine pairs of signs is asked for in a session.
         seconds: How long the arm moves each time.
         out: Folder for sessions.json.
@@ -48,7 +49,7 @@ def main(
         for seed in tqdm(range(first_seed, first_seed + sessions), "sessions"):
             plan = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
             people = choose_people(plan.language, np.random.default_rng([seed, 1]), Source(signs), Source(movements))
-            outcomes.append(session_outcome(run_session(plan, people)))
+            outcomes.append(session_outcome(run_session(plan, plan.compose(people))))
         print(study_table(outcomes))
         text = json.dumps(study_report(outcomes, method, policy), indent=1)
         (folder / "sessions.json").write_text(text + "\n", encoding="utf-8")

@@ -5,46 +5,54 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from signimit.grouping import group_movements
+from signimit.exceptions import InvalidInputError
 from signimit.learners.paper import PaperEvidence
 from signimit.plots import paper as figures
 from signimit.plots.explanation import draw_explanation
 from signimit.similarity import maximum_similarities, policy_similarities
-from signimit_envs.sessions.scores import algorithm_reading, session_distances
 from signimit_envs.sessions.session import Reproduction, SessionResult
 
 DOTS_PER_INCH = 130
 
 
-def write_figures(result: SessionResult, folder: Path) -> None:
-    """Write figures 4 to 7 and the memberships as PNG, and why it was so understood where the method can tell."""
-    model, language = result.model, result.plan.language
-    distances = session_distances(result)
-    similarity = maximum_similarities(distances)
-    evidence = model.understanding.evidence
-    history = evidence.history if isinstance(evidence, PaperEvidence) else None
-    if history is None:  # a method without Algorithm 1; show what the paper's would have done
-        history = group_movements(similarity, method=algorithm_reading(result), rng=result.plan.seed).history
-    reproductions = by_request(result)
+def write_figures(paper: SessionResult, ours: SessionResult, folder: Path) -> None:
+    """Write figures 4 to 7 and the memberships as the paper draws them, figure 7 of ours, and why ours understood so.
+
+    Args:
+        paper: A session with the paper's learner and policy.
+        ours: The same session with others; without ``why.png`` if their learner has no probabilities to tell.
+        folder: Where the PNG files go.
+    """
+    model, evidence = paper.model, paper.model.understanding.evidence
+    if not isinstance(evidence, PaperEvidence) or evidence.distances is None or evidence.history is None:
+        raise InvalidInputError("method of the paper's session", "one with Algorithm 1", repr(paper.plan.method))
     drawn = {
-        "figure4": figures.draw_demonstrations(result.session.demonstrations, model.labels, model.focus),
-        "figure5": figures.draw_similarities(policy_similarities(distances), model.labels),
-        "figure6": figures.draw_maximum_similarity(similarity, model.labels),
-        "figure7": figures.draw_reproductions(
-            {request: [path_about_object(r) for r in rs] for request, rs in reproductions.items()},
-            {request: [r.obeyed for r in rs] for request, rs in reproductions.items()},
-            language.movements,
-            language.held_back,
-        ),
-        "memberships": figures.draw_memberships(history, model.labels),
+        "figure4": figures.draw_demonstrations(paper.session.demonstrations, model.labels, model.focus),
+        "figure5": figures.draw_similarities(policy_similarities(evidence.distances), model.labels),
+        "figure6": figures.draw_maximum_similarity(maximum_similarities(evidence.distances), model.labels),
+        "figure7": _draw_reproductions(paper, "The paper's method"),
+        "figure7-ours": _draw_reproductions(ours, "Ours"),
+        "memberships": figures.draw_memberships(evidence.history, model.labels),
     }
-    if model.understanding.belief is not None:
-        drawn["why"] = draw_explanation(model)
+    if ours.model.understanding.belief is not None:
+        drawn["why"] = draw_explanation(ours.model)
     for name, figure in drawn.items():
         # Without the date and version of the software the same session gives the same bytes.
         figure.savefig(folder / f"{name}.png", dpi=DOTS_PER_INCH, metadata={"Software": None})
+
+
+def _draw_reproductions(result: SessionResult, imitator: str) -> Figure:
+    reproductions, language = by_request(result), result.plan.language
+    return figures.draw_reproductions(
+        {request: [path_about_object(r) for r in rs] for request, rs in reproductions.items()},
+        {request: [r.obeyed for r in rs] for request, rs in reproductions.items()},
+        language.movements,
+        language.held_back,
+        imitator,
+    )
 
 
 def by_request(result: SessionResult) -> dict[tuple[int, int], list[Reproduction]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import platform
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,59 +17,64 @@ from signimit.teaching.composition import Strokes
 from signimit.teaching.languages import Request
 from signimit.teaching.people.choosing import People
 from signimit.teaching.sessions import Session
-from signimit_envs.sessions.scores import algorithm_reading, failing_stage, obeyed_shares, restart_grouping
+from signimit_envs.sessions.scores import RESTARTS, algorithm_reading, failing_stage, obeyed_shares, restart_grouping
 from signimit_envs.sessions.session import Reproduction, SessionResult
 
-FORMAT = 2  # 1 called the misfit path_error
+FORMAT = 3  # 2 had one learner; 1 called the misfit path_error
 PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
+_RULE = "  "  # between the columns of a table
+_MEASURES = "obeyed  misfit  coverage  turns"
+_WIDTH = len(_MEASURES)
 
 
-def session_report(result: SessionResult, people: People[Strokes]) -> dict[str, Any]:
-    """Tell everything about a session in what JSON can say; the same session gives the same object."""
-    plan, language = result.plan, result.plan.language
-    rows = [_reproduction_entry(result, r) for r in result.reproductions]
-    verdict = judge_inference(result.model, result.session.truth)
+def session_report(results: Mapping[str, SessionResult], people: People[Strokes]) -> dict[str, Any]:
+    """Tell everything about one session in what JSON can say; the same session gives the same object.
+
+    Args:
+        results: What each imitator made of the session, by its name.
+        people: Who made the signs and showed the movements.
+    """
+    first = next(iter(results.values()))
+    plan = first.plan
     return {
         "format": FORMAT,
-        "plan": {name: getattr(plan, name) for name in ("method", "policy", "seed", "attempts", "seconds")},
+        "plan": {name: getattr(plan, name) for name in ("seed", "attempts", "seconds")},
         "people": {"interactant": people.names[0], "demonstrator": people.names[1]},
         "versions": {"platform": platform.platform(), **installed_versions(*PACKAGES)},
-        "movements": list(language.movements),
-        "inference": {
-            "grouping right": verdict.grouping,
-            "focus right": verdict.focus,
-            "word order right": verdict.word_order,
-            "demonstrations with the right focus": share_entry(verdict.foci_right),
-            "reading of Algorithm 1": algorithm_reading(result),
-            "grouping restarts right": share_entry(restart_grouping(result)),
-        },
-        "obeyed": {name: share_entry(share) for name, share in obeyed_shares(result).items()},
-        "summary": result.model.summary(),
-        "reproductions": rows,
+        "movements": list(plan.language.movements),
+        "demonstrations": len(first.session.demonstrations),
+        "commands": len(first.session.commands),
+        "grouping restarts right": share_entry(restart_grouping(first)),
+        "imitators": {name: _imitator_entry(result) for name, result in results.items()},
     }
 
 
-def session_table(result: SessionResult) -> str:
-    """Say in a table how each pair of signs was obeyed."""
-    lines = ["movement       about  shown   obeyed      misfit  coverage  turns"]
-    for request in result.plan.language.requests:
-        lines.append(_row(request, result))
-    for name, share in obeyed_shares(result).items():
-        lines.append(f"obeyed, {name}: {share}")
-    return "\n".join(lines)
+def session_table(results: Mapping[str, SessionResult]) -> str:
+    """Say in a table, with a column for each imitator, what was inferred and how each pair of signs was obeyed."""
+    language = next(iter(results.values())).plan.language
+    columns = list(results.values())
+    verdicts = [judge_inference(r.model, r.session.truth) for r in columns]
+    lines = [
+        _line("", results),
+        _line("learner, policy", [f"{r.plan.method}, {r.plan.policy}" for r in columns]),
+        _line("grouping", [_word(v.grouping) for v in verdicts]),
+        _line("focus of demonstrations", [f"{v.foci_right.count} of {v.foci_right.total}" for v in verdicts]),
+        _line("word order", [_word(v.word_order) for v in verdicts]),
+        "",
+        _line("asked for", [_MEASURES] * len(columns)),
+    ]
+    for request in language.requests:
+        shown = "" if request in language.seen else " (never shown)"
+        asked = f"{language.movements[request.movement]}, {object_name(request.focus)}{shown}"
+        lines.append(_line(asked, [_measures(request, r) for r in columns]))
+    shares = [obeyed_shares(r) for r in columns]
+    lines += ["", *(_line(f"obeyed, {name}", [_share_text(s[name]) for s in shares]) for name in shares[0])]
+    return "\n".join(line.rstrip() for line in lines)
 
 
-def inference_lines(result: SessionResult) -> str:
-    """Say whether grouping, focus and word order are right, and how often grouping is from other starts."""
-    verdict = judge_inference(result.model, result.session.truth)
-    return "\n".join(
-        [
-            f"grouping: {_word(verdict.grouping)}",
-            f"focus: {_word(verdict.focus)}, {verdict.foci_right.count} of {verdict.foci_right.total} demonstrations",
-            f"word order: {_word(verdict.word_order)}",
-            f"Algorithm 1, {algorithm_reading(result)}, from other starts: right in {restart_grouping(result)}",
-        ]
-    )
+def restarts_line(result: SessionResult) -> str:
+    """Say how often Algorithm 1 groups the demonstrations right, from its own start and others."""
+    return f"Algorithm 1, {algorithm_reading(result)}, from {RESTARTS} starts: right in {restart_grouping(result)}"
 
 
 def truth_text(session: Session) -> str:
@@ -82,16 +88,40 @@ def truth_text(session: Session) -> str:
     return json.dumps({"word order": order, "demonstrations": entries}, indent=1) + "\n"
 
 
-def _row(request: Request, result: SessionResult) -> str:
+def _line(name: str, cells: Iterable[str]) -> str:
+    return f"{name:35s}" + _RULE.join(f"{cell:{_WIDTH}s}" for cell in cells)
+
+
+def _measures(request: Request, result: SessionResult) -> str:
+    """Say how often a request was obeyed, and the medians of misfit, coverage and turns."""
     mine = [r for r in result.reproductions if r.command.request == request]
     obeyed = Share.of(r.obeyed for r in mine)
-    error, coverage, turns = np.median([r.performance[2:5] for r in mine], axis=0)
-    movement = result.plan.language.movements[request.movement]
-    shown = "yes" if request in result.plan.language.seen else "never"
-    return (
-        f"{movement:14s} {object_name(request.focus):6s} {shown:6s} {obeyed.count:>4d}/{obeyed.total:<2d} "
-        f"{error:>11.2f} {coverage:>9.2f} {turns:>6.1f}"
-    )
+    looks = [(p.misfit, p.coverage, p.turns) for p in (r.performance for r in mine)]
+    misfit, coverage, turns = np.median(looks, axis=0)
+    return f"{obeyed.count:>3d}/{obeyed.total:<2d}  {misfit:>6.2f}  {coverage:>8.2f}  {turns:>5.1f}"
+
+
+def _share_text(share: Share) -> str:
+    low, high = share.interval
+    return f"{share.count} of {share.total} [{100 * low:.0f} to {100 * high:.0f} %]"
+
+
+def _imitator_entry(result: SessionResult) -> dict[str, Any]:
+    """Tell what one imitator understood and did."""
+    verdict = judge_inference(result.model, result.session.truth)
+    return {
+        "method": result.plan.method,
+        "policy": result.plan.policy,
+        "inference": {
+            "grouping right": verdict.grouping,
+            "focus right": verdict.focus,
+            "word order right": verdict.word_order,
+            "demonstrations with the right focus": share_entry(verdict.foci_right),
+        },
+        "obeyed": {name: share_entry(share) for name, share in obeyed_shares(result).items()},
+        "summary": result.model.summary(),
+        "reproductions": [_reproduction_entry(result, r) for r in result.reproductions],
+    }
 
 
 def _reproduction_entry(result: SessionResult, reproduction: Reproduction) -> dict[str, Any]:

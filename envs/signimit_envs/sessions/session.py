@@ -12,11 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.evaluation import Performance, performed
 from signimit.exceptions import InvalidInputError
+from signimit.learners import DEFAULT_METHOD
 from signimit.learning import ImitationModel, learn
 from signimit.policies import DEFAULT_POLICY
-from signimit.teaching.composition import Strokes
+from signimit.teaching.composition import SceneSampler, Strokes
 from signimit.teaching.languages import PAPER_LANGUAGE, Language
 from signimit.teaching.people.choosing import People
+from signimit.teaching.scenes import sample_scene
 from signimit.teaching.sessions import Command, Condition, Session, ask_in_order, compose_session
 from signimit_envs.sessions.reproduction import reproduce
 from signimit_envs.tabletop_hand import TabletopHandEnv
@@ -24,7 +26,7 @@ from signimit_envs.tabletop_hand import TabletopHandEnv
 
 @dataclass(frozen=True, kw_only=True)
 class SessionPlan:
-    """Plan of a session.
+    """Plan of a session; its defaults are those of `signimit.learn`.
 
     Attributes:
         language: What is spoken.
@@ -33,14 +35,16 @@ class SessionPlan:
         seed: Decides everything that happens, people apart.
         attempts: How often each request is made of the imitator.
         seconds: How long the imitator moves each time.
+        shown_scenes: Draws where the objects are in demonstrations.
     """
 
     language: Language = PAPER_LANGUAGE
-    method: str = "paper"
+    method: str = DEFAULT_METHOD
     policy: str = DEFAULT_POLICY
     seed: int = 0
     attempts: int = 4
     seconds: float = 10.0
+    shown_scenes: SceneSampler = sample_scene
 
     def __post_init__(self) -> None:
         """Check the numbers.
@@ -60,10 +64,12 @@ class SessionPlan:
         Raises:
             UnknownNameError: If the people cannot draw what the language needs.
         """
-        condition = Condition(language=self.language, ask=partial(ask_in_order, attempts=self.attempts))
+        ask = partial(ask_in_order, attempts=self.attempts)
+        condition = Condition(language=self.language, shown_scenes=self.shown_scenes, ask=ask)
         return compose_session(condition, self.seed, people, np.random.default_rng(self.seed))
 
 
+PAPER = {"method": "paper", "policy": "knn"}  # Algorithm 1 and the 50 nearest points, sections II-A to II-E
 Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 
@@ -106,7 +112,7 @@ class Reproduction(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class SessionResult:
-    """Result of a session.
+    """Result of a session with one learner and one kind of policy.
 
     Attributes:
         plan: What was done.
@@ -121,18 +127,17 @@ class SessionResult:
     reproductions: tuple[Reproduction, ...]
 
 
-def run_session(plan: SessionPlan, people: People[Strokes], track: Track = iter) -> SessionResult:
-    """Run a session on the physics.
+def run_session(plan: SessionPlan, session: Session, track: Track = iter) -> SessionResult:
+    """Learn from a session's demonstrations, and obey its commands on the physics.
 
     Args:
-        plan: What is done.
-        people: Who makes the signs and shows the movements.
+        plan: How to learn, and for how long to move.
+        session: What is seen and asked for, as `SessionPlan.compose` makes it.
         track: Passes the commands on as they are carried out, e.g. tqdm's progress bar.
 
     Raises:
         SignimitError: If something cannot be used.
     """
-    session = plan.compose(people)
     model = learn(session.demonstrations, session.prototypes, plan.method, plan.policy, plan.seed)
     env = TabletopHandEnv(objects=plan.language.objects)
     try:
