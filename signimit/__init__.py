@@ -65,6 +65,8 @@ operation     What a focus word asks for: a function from a scene to a place. Th
 focus         The object that a demonstration or a request is about.
 signer        Who makes signs (the paper's interactant).
 mover         Who moves (the paper's demonstrator).
+
+Indices, files and messages about input count from 0; sentences about a model, figures and films count from 1.
 """
 
 from signimit.demonstrations import Demonstration, DemonstrationSet

@@ -62,8 +62,8 @@ def _draw_beliefs(figure: SubFigure, model: ImitationModel, reasons: Reasons) ->
     lower.set_xticks(at, [str(t + 1) for t in order], fontsize=7)
     lower.set_xlabel("demonstration, sorted by what was found")
     figure.suptitle(
-        f"How probable each object and movement is. A ? marks what is in doubt (a second with {DOUBT:.0%}),\n"
-        "with how far the two objects lie apart.",
+        f"How probable each object and movement is. A ? marks doubt: another one has at least {DOUBT:.0%};\n"
+        "between objects it says how far the two lie apart.",
         fontsize=10,
     )
 

@@ -20,7 +20,7 @@ def test_what_was_understood_is_said() -> None:
         "The first word names the object, the second word names the movement.",
         "  Signs like the first of demonstration 1 mean the red object.",
         "  No sign was seen for the green object.",
-        "  Signs like the first of demonstrations 1, 2 mean the blue object.",
+        "  Signs like the first of demonstrations 2, 3 mean the blue object.",
         "  Signs like the second of demonstrations 1, 3 mean movement 1.",
         "  Signs like the second of demonstration 2 mean movement 2.",
     ]
@@ -32,7 +32,7 @@ def test_a_swapped_word_order_and_one_movement_are_said() -> None:
     assert "The second word names the object, the first word names the movement." in text
 
 
-@pytest.mark.parametrize(("index", "name"), [(0, "red"), (1, "green"), (2, "blue"), (6, "number 6")])
+@pytest.mark.parametrize(("index", "name"), [(0, "red"), (1, "green"), (2, "blue"), (6, "number 7")])
 def test_objects_have_colours_while_there_are_some(index: int, name: str) -> None:
     assert object_name(index) == name
 

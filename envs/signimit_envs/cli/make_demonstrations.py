@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from signimit.benchmark.splits import crowded_scene
 from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.choosing import Source, choose_people
-from signimit.teaching.scenes import sample_scene
+from signimit.teaching.people.relabelling import with_waver
 from signimit_envs.sessions.report import truth_text
 from signimit_envs.sessions.session import SessionPlan
 
@@ -22,7 +22,7 @@ def main(
     signer: str | None = None,
     movements: Path | None = None,
     mover: str | None = None,
-    crowded: bool = False,
+    noise: float = 0.0,
 ) -> None:
     """Let two people make the paper's 12 demonstrations.
 
@@ -36,12 +36,15 @@ def main(
         signer: Writer of that library; left out, one is drawn.
         movements: Stroke library of real people who show the movements; left out, a synthetic person.
         mover: Writer of that library; left out, one is drawn.
-        crowded: Put the objects at a quarter of the usual distances, within each other's drawings: what a demonstration
-            was about is then in doubt.
+        noise: Root mean square of a slow waver in all that is drawn, in half sizes of a drawing; with 0.18, some
+            demonstrations are in doubt.
     """
-    plan = SessionPlan(seed=seed, shown_scenes=crowded_scene if crowded else sample_scene)
+    plan = SessionPlan(seed=seed)
     rng = np.random.default_rng([seed, 1])
     people = choose_people(plan.language, rng, Source(signs, signer), Source(movements, mover))
+    if noise:
+        signs_made, movements_made = (with_waver(s, rng, noise) for s in (people.signs, people.movements))
+        people = replace(people, signs=signs_made, movements=movements_made)
     session = plan.compose(people)
     labels = plan.language.prototypes
     prototypes = StrokeLibrary(session.prototypes, labels, (people.names[0],) * len(labels), people.signs.source)

@@ -12,13 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.evaluation import Performance, performed
 from signimit.exceptions import InvalidInputError
-from signimit.learners import DEFAULT_METHOD
+from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learning import ImitationModel, learn
-from signimit.policies import DEFAULT_POLICY
-from signimit.teaching.composition import SceneSampler, Strokes
+from signimit.policies import DEFAULT_POLICY, check_policy_kind
+from signimit.teaching.composition import Strokes
 from signimit.teaching.languages import PAPER_LANGUAGE, Language
 from signimit.teaching.people.choosing import People
-from signimit.teaching.scenes import sample_scene
 from signimit.teaching.sessions import Command, Condition, Session, ask_in_order, compose_session
 from signimit_envs.sessions.reproduction import reproduce
 from signimit_envs.tabletop_hand import TabletopHandEnv
@@ -35,7 +34,6 @@ class SessionPlan:
         seed: Decides everything that happens, people apart.
         attempts: How often each request is made of the imitator.
         seconds: How long the imitator moves each time.
-        shown_scenes: Draws where the objects are in demonstrations.
     """
 
     language: Language = PAPER_LANGUAGE
@@ -44,14 +42,16 @@ class SessionPlan:
     seed: int = 0
     attempts: int = 4
     seconds: float = 10.0
-    shown_scenes: SceneSampler = sample_scene
 
     def __post_init__(self) -> None:
-        """Check the numbers.
+        """Check names and numbers.
 
         Raises:
             InvalidInputError: If there would be nothing to see.
+            UnknownNameError: If there is no such method or policy.
         """
+        get_learner(self.method)
+        check_policy_kind(self.policy)
         if self.seed < 0:
             raise InvalidInputError("seed", "zero or more", f"{self.seed}")
         if self.attempts < 1:
@@ -64,8 +64,7 @@ class SessionPlan:
         Raises:
             UnknownNameError: If the people cannot draw what the language needs.
         """
-        ask = partial(ask_in_order, attempts=self.attempts)
-        condition = Condition(language=self.language, shown_scenes=self.shown_scenes, ask=ask)
+        condition = Condition(language=self.language, ask=partial(ask_in_order, attempts=self.attempts))
         return compose_session(condition, self.seed, people, np.random.default_rng(self.seed))
 
 

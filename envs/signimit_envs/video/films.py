@@ -56,7 +56,7 @@ def film_grid(result: SessionResult) -> Film:
 
 
 def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
-    """Draw shots: signs to the left, the scene to the right, the caption below."""
+    """Draw shots: signs to the left, the scene from above to the right, the caption below."""
     width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
     with closing(SceneRenderer(objects, *SCENE_SIZE)) as renderer:
         for shot in shots:
@@ -65,7 +65,7 @@ def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
                 yield np.vstack([draw_card((width, height), shot.card), caption])
             else:
                 signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
-                yield np.vstack([np.hstack([signs, renderer.picture(shot, "perspective")]), caption])
+                yield np.vstack([np.hstack([signs, renderer.picture(shot)]), caption])
 
 
 def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
@@ -91,4 +91,4 @@ def _draw_tile(reproduction: Reproduction, end: int, language: Language, rendere
     lines = [f"{language.movements[movement]}, {object_name(focus)}"]
     if unseen := command.request not in language.seen:
         lines.append("never demonstrated")
-    return draw_label(renderer.picture(shot, "top"), lines, command.signs, framed=unseen)
+    return draw_label(renderer.picture(shot), lines, command.signs, framed=unseen)

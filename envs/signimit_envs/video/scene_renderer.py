@@ -1,4 +1,4 @@
-"""Renderer of the scene in films: arm, objects, the demonstrator's hand, and trails on the table."""
+"""Renderer of the scene in films, from above: arm, objects, the demonstrator's hand, and trails on the table."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ ROBOT_TRAIL = (0.07, 0.07, 0.09, 1.0)  # rgba
 HUMAN_TRAIL = (0.42, 0.13, 0.52, 1.0)
 _TRAIL_HEIGHT, _TRAIL_RADIUS = 0.005, 0.0045  # m
 _HAND_RADIUS = 0.028  # m, of the ball that stands for the demonstrator's hand
+_CAMERA = "top"
+_VIEW_HEIGHT = 1.08  # m of the table that a picture is high: the tabletop and a margin
 _MAX_SEGMENTS = 240  # of a trail; longer ones are thinned out, since a scene holds a limited number of geometries
 
 
@@ -23,14 +25,20 @@ class SceneRenderer:
     """Renderer of the scenes of shots with one number of objects."""
 
     def __init__(self, objects: int, width: int, height: int) -> None:
-        """Compile the scene for pictures of a size, pixels; OpenGL is looked for at the first picture."""
+        """Compile the scene for pictures of a size, pixels; OpenGL is looked for at the first picture.
+
+        The camera above is made orthographic, so that a hand that is higher than its trail is seen on it.
+        """
         self._model = compile_scene(objects)
+        above = self._model.camera(_CAMERA).id
+        self._model.cam_projection[above] = mujoco.mjtProjection.mjPROJ_ORTHOGRAPHIC
+        self._model.cam_fovy[above] = _VIEW_HEIGHT
         self._data = mujoco.MjData(self._model)
         self._bodies = object_bodies(self._model)
         self._view = OffscreenView(self._model, width, height)
 
-    def picture(self, shot: Shot, camera: str) -> NDArray[np.uint8]:
-        """Draw the scene of a shot through ``"perspective"`` or ``"top"``, shape (height, width, 3).
+    def picture(self, shot: Shot) -> NDArray[np.uint8]:
+        """Draw the scene of a shot as seen from above, y up, shape (height, width, 3).
 
         Raises:
             RenderingError: If there is no OpenGL.
@@ -45,7 +53,7 @@ class SceneRenderer:
             if shot.human_hand is not None:
                 add_ball(scene, shot.human_hand, _HAND_RADIUS, HUMAN_TRAIL)
 
-        return self._view.frame(self._data, camera, decorate)
+        return self._view.frame(self._data, _CAMERA, decorate)
 
     def close(self) -> None:
         """Free the OpenGL context; may be called again."""

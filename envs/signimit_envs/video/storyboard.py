@@ -1,7 +1,7 @@
 """Storyboard of a session: the shots of a film in the phases of the paper's figure 1, not drawn yet.
 
 A: the interactant signs. B: the demonstrator answers. After all demonstrations a card says what the robot understood.
-C: the interactant signs again, in a new scene. D: the robot answers. Demonstrations are numbered from 0, as everywhere.
+C: the interactant signs again, in a new scene. D: the robot answers. Demonstrations are counted from 1.
 """
 
 from __future__ import annotations
@@ -77,9 +77,9 @@ def show_session(result: SessionResult) -> Iterator[Shot]:
 def show_demonstration(result: SessionResult, number: int, speedup: int) -> Iterator[Shot]:
     """Show the signs being made (A) and the demonstrator's answer (B), ``speedup`` times faster than they were."""
     demonstrations = result.session.demonstrations
-    title = f"Demonstration {number} (0 to {len(demonstrations) - 1})" + (
-        f", {speedup} times faster" if speedup > 1 else ""
-    )
+    title = f"Demonstration {number + 1} of {len(demonstrations)}"
+    if speedup > 1:
+        title += f", {speedup} times faster"
     yield from show_exchange(demonstrations[number], title, speedup)
 
 
@@ -103,12 +103,12 @@ def show_card(result: SessionResult) -> Iterator[Shot]:
     """Show a card with what the robot understood: the groups of movements and the word order of its model."""
     model = result.model
     order = model.word_order
-    groups = [", ".join(str(t) for t in movement.members) for movement in model.movements]
+    groups = [", ".join(str(t + 1) for t in movement.members) for movement in model.movements]
     lines = (
         "What the robot understood, without having been told anything:",
         "",
         f"The demonstrator knows {len(groups)} movements:",
-        *(f"    one in demonstrations {members}" for members in groups),
+        *(f"    movement {m}, in demonstrations {members}" for m, members in enumerate(groups, start=1)),
         "",
         f"The {ordinal(order.focus)} sign names the object,",
         f"the {ordinal(order.movement)} sign names the movement.",

@@ -12,6 +12,9 @@ import pytest
 import signimit as si
 
 pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
+from matplotlib.colors import LogNorm
+from matplotlib.text import Annotation
+
 from signimit.plots import paper as figures  # needs matplotlib
 
 LABELS = np.array([1, 0, 1, 0])
@@ -36,7 +39,7 @@ def test_figure_4_has_a_column_a_demonstration_and_a_row_a_sign_and_object() -> 
     figure = figures.draw_demonstrations(demonstration_set(), LABELS, FOCUS)
     titles = [panel.get_title().splitlines()[0] for panel in figure.axes[:4]]
     assert len(figure.axes) == 4 * (2 + 3)
-    assert titles == ["3", "1", "0", "2"]  # by movement, then by object
+    assert titles == ["4", "2", "1", "3"]  # counted from 1, by movement, then by object
 
 
 def test_figure_5_shows_each_pair_of_frames_on_one_scale() -> None:
@@ -44,8 +47,9 @@ def test_figure_5_shows_each_pair_of_frames_on_one_scale() -> None:
     images = [a.images[0] for a in figures.draw_similarities(gamma, LABELS).axes if a.images]
     assert len(images) == 9
     assert len({image.get_clim() for image in images}) == 1
+    assert all(isinstance(image.norm, LogNorm) for image in images)
     shown = np.asarray(images[1].get_array())  # t from red, k from green
-    assert shown[0, 2] == gamma[1, 0, 0, 1]  # rows and columns come in the order 1, 3, 0, 2
+    assert shown[0, 2] == gamma[1, 0, 0, 1]  # rows and columns come in the order 2, 4, 1, 3
     assert (np.diag(shown) == 0).all()
 
 
@@ -62,18 +66,44 @@ def test_figure_7_frames_what_was_never_demonstrated_and_counts_what_was_obeyed(
     figure = figures.draw_reproductions(
         {p: [path, path] for p in pairs}, {p: [True, p == (0, 0)] for p in pairs}, ["up", "down"], frozenset([(1, 1)])
     )
-    notes = [panel.texts[0].get_text() for panel in figure.axes]
+    notes = [panel.get_title(loc="left") for panel in figure.axes]
     assert notes == ["2 of 2 obeyed", "1 of 2 obeyed", "1 of 2 obeyed", "never demonstrated, 1 of 2 obeyed"]
     assert figure.axes[0].get_ylabel() == "up"
+
+
+def test_figure_7_cuts_no_path_off_and_tells_starts_directions_and_failures_apart() -> None:
+    far = np.column_stack([np.linspace(0.1, 0.9, 20), np.linspace(0.0, -0.5, 20)])
+    resting = np.full((5, 2), 0.1)
+    pairs = [(0, 0), (0, 1)]
+    figure = figures.draw_reproductions(
+        {p: [far, resting] for p in pairs}, {p: [True, False] for p in pairs}, ["up"], frozenset()
+    )
+    for panel in figure.axes:
+        left, right = panel.get_xlim()
+        low, high = panel.get_ylim()
+        assert left < 0.0 < 0.9 < right
+        assert low < -0.5 < 0.1 < high
+        styles = [line.get_linestyle() for line in panel.lines if len(np.atleast_1d(line.get_xdata())) > 1]
+        assert len(set(styles)) == 2
+        (arrow,) = panel.texts  # none on a hand that rests
+        assert isinstance(arrow, Annotation)
+        ahead = np.subtract(arrow.xy, arrow.xyann)
+        assert ahead @ (far[-1] - far[0]) > 0
+        assert [line.get_marker() for line in panel.lines].count("x") == 1
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()][:3] == ["start 1", "start 2", "where the hand starts"]
 
 
 def test_memberships_have_a_panel_a_demonstration() -> None:
     history = si.group_movements(np.array([[0, 9, 1, 1], [9, 0, 1, 1], [1, 1, 0, 9], [1, 1, 9, 0.0]])).history
     figure = figures.draw_memberships(history, [0, 0, 1, 1])
     assert [panel.get_title() for panel in figure.axes][:2] == [
-        "demonstration 0 (movement 0)",
-        "demonstration 1 (movement 0)",
+        "demonstration 1 (movement 1)",
+        "demonstration 2 (movement 1)",
     ]
+    (legend,) = figure.legends
+    named = [text.get_text().split(" (")[0] for text in legend.get_texts()]
+    assert named == ["movement 1", "movement 2", "the other groups"]
 
 
 def test_the_same_figure_gives_the_same_bytes() -> None:

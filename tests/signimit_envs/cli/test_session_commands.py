@@ -37,12 +37,13 @@ def test_reproduce_writes_results_and_figures_also_where_there_is_no_opengl(
     out = tmp_path / "out"
     said = run("reproduce", "--out", out, "--attempts", 1, "--seconds", 1)
     assert "12 demonstrations show " in said
-    assert "obeyed, unseen: " in said
+    assert "paper, knn                       joint, path-following" in said
     assert "No videos. Cannot render: no OpenGL library was found. Install one." in said
-    pictures = ["figure4.png", "figure5.png", "figure6.png", "figure7.png", "memberships.png"]
-    assert sorted(p.name for p in out.iterdir()) == [*pictures, "results.json"]
+    pictures = [*(f"figure{n}.png" for n in (4, 5, 6)), "figure7-ours.png", "figure7.png", "memberships.png"]
+    assert sorted(p.name for p in out.iterdir()) == [*pictures, "results.json", "why.png"]
     results = json.loads((out / "results.json").read_text())
-    assert len(results["reproductions"]) == 9
+    assert results["plan"]["seed"] == 0
+    assert [len(said["reproductions"]) for said in results["imitators"].values()] == [9, 9]
 
 
 @pytest.mark.slow
@@ -60,6 +61,14 @@ def test_render_says_what_was_understood_and_films_it(
     complaint = run.refusal("render", model, "--signs", signs, "--words", 1, "--out", tmp_path / "no.mp4")
     assert "signs: expected 2 as in the demonstrations, found 1" in complaint
     assert not (tmp_path / "no.mp4").exists()
+
+
+def test_demonstrations_with_noise_are_other_ones(run: Any, demonstrations: Path, tmp_path: Path) -> None:
+    run("make-demonstrations", "--noise", 0.18, "--out", tmp_path / "noisy")
+    plain, noisy = (
+        si.DemonstrationSet.load(folder / "demonstrations.npz") for folder in (demonstrations, tmp_path / "noisy")
+    )
+    assert not np.array_equal(plain[0].signs[0], noisy[0].signs[0])
 
 
 def test_sessions_counts_over_several_sessions(run: Any, tmp_path: Path) -> None:

@@ -15,11 +15,13 @@ from signimit.benchmark.statistics import Share
 from signimit.evaluation import NOTHING
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
+from signimit.learners import DEFAULT_METHOD
+from signimit.policies import DEFAULT_POLICY
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.choosing import People
 from signimit.teaching.sessions import Command
 from signimit_envs.sessions.many_sessions import repeats_paper, session_outcome, study_report, study_table
-from signimit_envs.sessions.report import inference_lines, session_report, session_table, truth_text
+from signimit_envs.sessions.report import restarts_line, session_report, session_table, truth_text
 from signimit_envs.sessions.scores import failing_stage, obeyed_shares, restart_grouping
 from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
 
@@ -54,14 +56,15 @@ def test_a_session_obeys_most_commands_when_its_inferences_are_right(result: Ses
 
 
 @pytest.fixture(scope="module")
-def report(result: SessionResult, people: People[StrokeLibrary]) -> dict[str, Any]:
-    return session_report(result, people)
+def report(results: dict[str, SessionResult], people: People[StrokeLibrary]) -> dict[str, Any]:
+    return session_report(results, people)
 
 
 @pytest.mark.slow
 def test_the_same_seed_gives_the_same_session_and_progress_is_told_command_by_command(
-    result: SessionResult, people: People[StrokeLibrary], report: dict[str, Any]
+    results: dict[str, SessionResult], people: People[StrokeLibrary], report: dict[str, Any]
 ) -> None:
+    result = results["ours"]
     seen = []
 
     def track(commands: Sequence[Command]) -> Iterator[Command]:
@@ -69,11 +72,11 @@ def test_the_same_seed_gives_the_same_session_and_progress_is_told_command_by_co
             seen.append(command.request)
             yield command
 
-    again = run_session(result.plan, people, track)
+    again = run_session(result.plan, result.plan.compose(people), track)
     assert seen == list(result.plan.language.requests)
     for a, b in zip(result.reproductions, again.reproductions, strict=True):
         assert a.answer.path.tobytes() == b.answer.path.tobytes()
-    assert session_report(again, people) == report
+    assert session_report({**results, "ours": again}, people) == report
 
 
 def test_the_seed_changes_the_session(people: People[StrokeLibrary]) -> None:
@@ -113,15 +116,35 @@ def test_the_failing_stage_is_the_first_that_went_wrong(result: SessionResult, m
     assert failing_stage(result, failed) == "policy"
 
 
-def test_the_report_is_json_and_says_what_the_table_says(result: SessionResult, report: dict[str, Any]) -> None:
-    seed = result.plan.seed
+def test_the_report_is_json_and_says_of_each_imitator_what_the_table_says(
+    results: dict[str, SessionResult], report: dict[str, Any]
+) -> None:
+    plan = results["ours"].plan
     report = json.loads(json.dumps(report, allow_nan=False))
-    assert report["plan"] == {"method": "paper", "policy": PLAN.policy, "seed": seed, "attempts": 1, "seconds": 6.0}
-    obeyed = sum(entry["obeyed"] for entry in report["reproductions"])
-    assert report["obeyed"]["all"]["count"] == obeyed
-    assert f"obeyed, all: {obeyed} of 9" in session_table(result)
+    assert report["format"] == 3
+    assert report["plan"] == {"seed": plan.seed, "attempts": 1, "seconds": 6.0}
+    assert (report["demonstrations"], report["commands"]) == (12, 9)
     assert {"python", "numpy", "mujoco", "mink", "platform"} <= set(report["versions"])
-    assert "grouping: right" in inference_lines(result)
+    assert list(report["imitators"]) == ["the paper", "ours"]
+    table = session_table(results)
+    for name, said in report["imitators"].items():
+        assert (said["method"], said["policy"]) == (results[name].plan.method, results[name].plan.policy)
+        assert said["inference"]["grouping right"]
+        obeyed = sum(entry["obeyed"] for entry in said["reproductions"])
+        assert said["obeyed"]["all"]["count"] == obeyed
+        low, high = said["obeyed"]["all"]["wilson 95 %"]
+        assert f"{obeyed} of 9 [{100 * low:.0f} to {100 * high:.0f} %]" in table
+    assert restarts_line(results["the paper"]).startswith("Algorithm 1, paper, from 51 starts: right in ")
+
+
+def test_both_imitators_saw_and_were_asked_the_same_and_the_paper_is_the_paper(
+    results: dict[str, SessionResult],
+) -> None:
+    paper, ours = results["the paper"], results["ours"]
+    assert (paper.plan.method, paper.plan.policy) == ("paper", "knn")
+    assert (ours.plan.method, ours.plan.policy) == (DEFAULT_METHOD, DEFAULT_POLICY)
+    assert paper.session is ours.session
+    assert [r.command for r in paper.reproductions] == list(ours.session.commands)
 
 
 def test_the_truth_is_told_demonstration_by_demonstration(result: SessionResult) -> None:

@@ -72,6 +72,8 @@ def test_the_card_tells_what_the_model_understood(result: SessionResult) -> None
     cards = [shot.card for shot in show_session(result) if shot.card]
     assert len(cards) == CARD_FRAMES
     assert f"The demonstrator knows {len(result.model.movements)} movements:" in cards[0]
+    members = ", ".join(str(t + 1) for t in result.model.movements[0].members)
+    assert f"    movement 1, in demonstrations {members}" in cards[0]
 
 
 def test_a_sign_grows_as_it_is_drawn_and_a_dot_marks_the_pen() -> None:
@@ -123,6 +125,19 @@ def test_the_trail_and_the_demonstrators_hand_can_be_seen() -> None:
     changed = (first != second).any(axis=2)
     assert 200 < changed.sum() < 20_000
     assert not changed[:, :320].any()
+
+
+def test_the_robots_hand_is_on_its_trail(result: SessionResult) -> None:
+    """Seen from above at the height of the hand as at that of the table: the tip hides the trail's end."""
+    answer, objects = result.reproductions[0].answer, result.reproductions[0].command.objects
+    shot = Shot(phase="D", caption="", objects=objects, joints=answer.joints[100], trail=answer.path[100:101])
+    (frame,) = frames_or_skip(film_shots([shot], 3), 1)
+    scene = frame[:480, 320:].astype(int)
+    yellow = (scene[..., 0] > 220) & (scene[..., 1] > 180) & (scene[..., 2] < 90)
+    row, column = np.argwhere(yellow).mean(axis=0)
+    metres = 1.08 / 480
+    seen = np.array([(column - 320) * metres, (240 - row) * metres - 0.03])  # the camera is 3 cm nearer to the arm
+    np.testing.assert_allclose(seen, answer.path[100], atol=2 * metres)
 
 
 def test_the_grid_shows_all_pairs_at_once(result: SessionResult) -> None:
