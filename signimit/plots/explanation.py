@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from signimit.exceptions import MissingDependencyError
 from signimit.explanation import DOUBT, Reasons, object_name, ordinal
 from signimit.learning import ImitationModel, Movement
-from signimit.plots.paper import FRAME, View, draw_sign, find_view, object_colour
+from signimit.plots.panels import FRAME, View, draw_sign, find_view, object_colour
 
 try:
     from matplotlib.figure import Figure

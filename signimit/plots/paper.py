@@ -6,7 +6,7 @@ Needs matplotlib, which the extra ``scripts`` installs; nothing else in signimit
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +14,18 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import MissingDependencyError
 from signimit.explanation import object_name
-from signimit.paths import arc_lengths, box_centre, half_size
+from signimit.paths import arc_lengths
+from signimit.plots.panels import (
+    OBJECT_MARKERS,
+    Paths,
+    View,
+    draw_sign,
+    find_aspect,
+    find_view,
+    frame_panel,
+    make_panels,
+    object_colour,
+)
 
 try:
     from matplotlib import colormaps
@@ -27,16 +38,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.image import AxesImage
 
-OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
-OBJECT_MARKERS = ("o", "s", "^", "D", "P", "h")  # the colour-blind tell the objects apart by their shapes
 PATH_COLOURS = ("#1b1b1b", "#7b3294", "#0571b0", "#b35806")  # repeated attempts; no colour of an object
 PATH_STYLES = ("-", "--", "-.", ":")  # the same attempts on paper without colours
-FRAME = "#e69f00"
-_LEAST_REACH = 0.2  # m to each side of the object that a panel shows at least
-_MARGIN = 0.03  # m between paths and the edge of their panel
 _UNDEFINED = "#c8c8c8"  # of the similarity of a demonstration with itself
-Paths = Sequence[NDArray[np.float64]]
-View = tuple[tuple[float, float], tuple[float, float]]
 
 
 def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, focus: ArrayLike) -> Figure:
@@ -54,7 +58,9 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     order = np.lexsort((about, movement))
     words, objects = len(demonstrations[0].signs), demonstrations.objects.shape[1]
     view = find_view([d.hand - place for d in demonstrations for place in d.objects])
-    figure, axes = _panels(words + objects, len(order), 1.3, heights=[0.8] * words + [1.3 * _aspect(view)] * objects)
+    figure, axes = make_panels(
+        words + objects, len(order), 1.3, heights=[0.8] * words + [1.3 * find_aspect(view)] * objects
+    )
     for column, t in enumerate(order):
         demonstration = demonstrations[int(t)]
         for word, sign in enumerate(demonstration.signs):
@@ -63,7 +69,7 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
             panel = axes[words + i, column]
             _draw_about(panel, [demonstration.hand - place], i, view)
             if i == about[t]:
-                _frame(panel)
+                frame_panel(panel)
         axes[0, column].set_title(f"{t + 1}\nmovement {movement[t] + 1}", fontsize=8)
     for word in range(words):
         axes[word, 0].set_ylabel(f"sign {word + 1}", fontsize=9)
@@ -88,16 +94,16 @@ def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> F
     shown = similarities[np.ix_(order, order)].copy()
     shown[np.arange(len(order)), np.arange(len(order))] = 0.0
     objects = shown.shape[2]
-    figure, axes = _panels(objects, objects, 2.6, heights=2.3, layout="compressed")
-    scale = LogNorm(float(shown[shown > 0].min()), float(shown.max()))
+    figure, axes = make_panels(objects, objects, 2.6, heights=2.3, layout="compressed")
+    least, most = float(shown[shown > 0].min()), float(shown.max())
     for i in range(objects):
         for j in range(objects):
-            image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, scale)
+            image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, LogNorm(least, most))
         axes[i, 0].set_ylabel(f"t seen from {object_name(i)}", color=object_colour(i))
         axes[0, i].set_title(f"k seen from {object_name(i)}", color=object_colour(i), fontsize=10)
     bar = figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.6, label="similarity γ, 1/rad²")
     round_numbers = np.multiply.outer(10.0 ** np.arange(-4, 5), [1.0, 2.0, 5.0]).ravel()
-    ticks = round_numbers[(round_numbers >= bar.vmin) & (round_numbers <= bar.vmax)]
+    ticks = round_numbers[(round_numbers >= least) & (round_numbers <= most)]
     bar.set_ticks(ticks.tolist(), labels=[f"{tick:g}" for tick in ticks])
     bar.ax.minorticks_off()
     figure.suptitle(
@@ -116,7 +122,7 @@ def draw_maximum_similarity(similarity: NDArray[np.float64], labels: ArrayLike) 
         labels: Movement of each demonstration, shape (N,); demonstrations are sorted by it.
     """
     order, cuts = _sorted_by(labels)
-    figure, axes = _panels(1, 1, 4.6)
+    figure, axes = make_panels(1, 1, 4.6)
     shown = similarity[np.ix_(order, order)]
     image = _draw_matrix(axes[0, 0], shown, order, cuts, Normalize(0.0, float(shown.max())))
     axes[0, 0].set(xlabel="demonstration k", ylabel="demonstration t")
@@ -144,14 +150,14 @@ def draw_reproductions(
     """
     objects = 1 + max(focus for _, focus in paths)
     view = find_view([path for attempts in paths.values() for path in attempts])
-    figure, axes = _panels(len(movements), objects, 3.0, heights=3.0 * _aspect(view) + 0.1, layout="compressed")
+    figure, axes = make_panels(len(movements), objects, 3.0, heights=3.0 * find_aspect(view) + 0.1, layout="compressed")
     for (movement, focus), attempts in paths.items():
         panel = axes[movement, focus]
         verdicts = obeyed[movement, focus]
         _draw_about(panel, attempts, focus, view, verdicts)
         note = _verdict_note(verdicts)
         if (movement, focus) in unseen:
-            _frame(panel)
+            frame_panel(panel)
             note = f"never demonstrated, {note}"
         panel.set_title(note, fontsize=9, loc="left", pad=3)
     for row, name in enumerate(movements):
@@ -188,7 +194,7 @@ def draw_memberships(history: NDArray[np.float64], labels: ArrayLike) -> Figure:
     order, _ = _sorted_by(labels)
     movement = np.asarray(labels)
     columns, last = 4, len(history) - 1
-    figure, axes = _panels(-(-len(order) // columns), columns, 2.2, heights=1.5)
+    figure, axes = make_panels(-(-len(order) // columns), columns, 2.2, heights=1.5)
     group = history[-1].argmax(axis=0)
     winners = list(dict.fromkeys(group[order].tolist()))
     for panel, t in zip(axes.ravel(), order, strict=False):
@@ -212,30 +218,6 @@ def draw_memberships(history: NDArray[np.float64], labels: ArrayLike) -> Figure:
         panel.set_xlabel("step", fontsize=8)
     figure.suptitle("Membership of each demonstration in each group, over the steps of Algorithm 1", fontsize=10)
     return figure
-
-
-def _panels(
-    rows: int,
-    columns: int,
-    size: float,
-    heights: float | list[float] | None = None,
-    layout: Literal["constrained", "compressed"] = "constrained",
-) -> tuple[Figure, NDArray[np.object_]]:
-    """Make a figure of panels without ticks, ``size`` inches wide each."""
-    each = heights if isinstance(heights, list) else [heights or size] * rows
-    figure = Figure(figsize=(columns * size + 0.8, sum(each) + 0.9), layout=layout)
-    axes = figure.subplots(rows, columns, squeeze=False, gridspec_kw={"height_ratios": each})
-    for panel in axes.ravel():
-        panel.set(xticks=[], yticks=[])
-    return figure, axes
-
-
-def draw_sign(panel: Axes, sign: NDArray[np.float64]) -> None:
-    """Draw a sign, shape (T_s, 2), as large as the panel."""
-    panel.plot(*((sign - box_centre(sign)) / half_size(sign)).T, color="#1b1b1b", linewidth=1.3)
-    panel.set(xlim=(-1.3, 1.3), ylim=(-1.3, 1.3), aspect="equal")
-    for spine in panel.spines.values():
-        spine.set_visible(False)
 
 
 def _draw_about(panel: Axes, paths: Paths, focus: int, view: View, obeyed: Sequence[bool | None] | None = None) -> None:
@@ -278,17 +260,6 @@ def _path_look(number: int) -> dict[str, Any]:
     return {"color": PATH_COLOURS[turn % len(PATH_COLOURS)], "linestyle": PATH_STYLES[number % len(PATH_STYLES)]}
 
 
-def find_view(paths: Paths) -> View:
-    """Return the limits of x and of y, m, within which no path, (T, 2), m, about an object at the origin is cut off."""
-    points = np.concatenate([np.concatenate(paths), [[-_LEAST_REACH] * 2, [_LEAST_REACH] * 2]])
-    (left, low), (right, high) = points.min(axis=0) - _MARGIN, points.max(axis=0) + _MARGIN
-    return (float(left), float(right)), (float(low), float(high))
-
-
-def _aspect(view: View) -> float:
-    return float(np.ptp(view[1]) / np.ptp(view[0]))
-
-
 def _draw_matrix(
     panel: Axes, matrix: NDArray[np.float64], order: NDArray[np.intp], cuts: NDArray[np.intp], scale: Normalize
 ) -> AxesImage:
@@ -307,16 +278,6 @@ def _sorted_by(labels: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     movement = np.asarray(labels)
     order = np.argsort(movement, kind="stable")
     return order, np.flatnonzero(np.diff(movement[order])) + 1
-
-
-def _frame(panel: Axes) -> None:
-    for spine in panel.spines.values():
-        spine.set(color=FRAME, linewidth=2.5)
-
-
-def object_colour(focus: int) -> str:
-    """Return the colour of an object."""
-    return OBJECT_COLOURS[focus % len(OBJECT_COLOURS)]
 
 
 def _distinct(number: int) -> str:

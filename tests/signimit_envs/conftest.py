@@ -11,7 +11,7 @@ from signimit.benchmark.scoring import judge_inference
 from signimit.learning import learn
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.choosing import People, choose_people
-from signimit_envs.sessions.session import PAPER, SessionPlan, SessionResult, run_session
+from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
 
 PLAN = SessionPlan(attempts=1, seconds=6.0)
 
@@ -26,7 +26,7 @@ def results(people: People[StrokeLibrary]) -> dict[str, SessionResult]:
     """A session that the paper's imitator understands as ours does: not all are such. By the names of the imitators."""
     for seed in range(50):
         ours = replace(PLAN, seed=seed)
-        paper = replace(ours, **PAPER)
+        paper = ours.as_in_paper()
         session = ours.compose(people)
         model = learn(session.demonstrations, session.prototypes, paper.method, paper.policy, seed)
         if judge_inference(model, session.truth).all_right:

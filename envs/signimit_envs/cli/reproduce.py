@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +14,7 @@ from signimit.policies import DEFAULT_POLICY
 from signimit.teaching.people.choosing import Source, choose_people
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.sessions.report import restarts_line, session_report, session_table
-from signimit_envs.sessions.session import PAPER, SessionPlan, SessionResult, run_session
+from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
 from signimit_envs.video.films import film_grid, film_story
 from signimit_envs.video.mp4 import write_video
 from signimit_envs.video.storyboard import FRAME_RATE
@@ -58,7 +58,7 @@ def main(
     from signimit_envs.sessions.figures import write_figures
 
     ours = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
-    plans = {"the paper": replace(ours, **PAPER), "ours": ours}
+    plans = {"the paper": ours.as_in_paper(), "ours": ours}
     people = choose_people(
         ours.language, np.random.default_rng([seed, 1]), Source(signs, signer), Source(movements, mover)
     )
@@ -66,9 +66,7 @@ def main(
     session = ours.compose(people)
     with whole_files(out) as folder:
         results = {
-            name: run_session(
-                plan, session, lambda commands, name=name: tqdm(commands, f"obeying, {name}", unit="command")
-            )
+            name: run_session(plan, session, partial(tqdm, desc=f"obeying, {name}", unit="command"))
             for name, plan in plans.items()
         }
         for name, result in results.items():

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -58,6 +58,10 @@ class SessionPlan:
             raise InvalidInputError("attempts", "at least 1", f"{self.attempts}")
         _check_seconds(self.seconds)
 
+    def as_in_paper(self) -> Self:
+        """Return the same plan with the paper's learner and policy: Algorithm 1, 50 nearest points (II-A to II-E)."""
+        return replace(self, method="paper", policy="knn")
+
     def compose(self, people: People[Strokes]) -> Session:
         """Compose the session: demonstrations, prototype signs, and each request so many times in a row.
 
@@ -68,7 +72,6 @@ class SessionPlan:
         return compose_session(condition, self.seed, people, np.random.default_rng(self.seed))
 
 
-PAPER = {"method": "paper", "policy": "knn"}  # Algorithm 1 and the 50 nearest points, sections II-A to II-E
 Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 

@@ -58,7 +58,7 @@ def film_grid(result: SessionResult) -> Film:
 def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
     """Draw shots: signs to the left, the scene from above to the right, the caption below."""
     width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
-    with closing(SceneRenderer(objects, *SCENE_SIZE)) as renderer:
+    with closing(SceneRenderer(objects, *SCENE_SIZE, orthographic=True)) as renderer:
         for shot in shots:
             caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
             if shot.card:
@@ -70,7 +70,7 @@ def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
 
 def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
     """Draw the grid, one frame for each number of control steps in ``ends``."""
-    with closing(SceneRenderer(language.objects, TILE, TILE)) as renderer:
+    with closing(SceneRenderer(language.objects, TILE, TILE, orthographic=True)) as renderer:
         for end in ends:
             tiles = [_draw_tile(r, end, language, renderer) for r in reproductions]
             rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)

@@ -17,22 +17,27 @@ HUMAN_TRAIL = (0.42, 0.13, 0.52, 1.0)
 _TRAIL_HEIGHT, _TRAIL_RADIUS = 0.005, 0.0045  # m
 _HAND_RADIUS = 0.028  # m, of the ball that stands for the demonstrator's hand
 _CAMERA = "top"
-_VIEW_HEIGHT = 1.08  # m of the table that a picture is high: the tabletop and a margin
+_VIEW_HEIGHT = 1.08  # m of the table that an orthographic picture is high: the tabletop and a margin
 _MAX_SEGMENTS = 240  # of a trail; longer ones are thinned out, since a scene holds a limited number of geometries
 
 
 class SceneRenderer:
     """Renderer of the scenes of shots with one number of objects."""
 
-    def __init__(self, objects: int, width: int, height: int) -> None:
-        """Compile the scene for pictures of a size, pixels; OpenGL is looked for at the first picture.
+    def __init__(self, objects: int, width: int, height: int, orthographic: bool = False) -> None:
+        """Compile the scene for pictures of a size; OpenGL is looked for at the first picture.
 
-        The camera above is made orthographic, so that a hand that is higher than its trail is seen on it.
+        Args:
+            objects: Number of objects.
+            width: Width of pictures, pixels.
+            height: Height of pictures, pixels.
+            orthographic: Look from infinitely far above, so that a hand above its trail is seen on it.
         """
         self._model = compile_scene(objects)
-        above = self._model.camera(_CAMERA).id
-        self._model.cam_projection[above] = mujoco.mjtProjection.mjPROJ_ORTHOGRAPHIC
-        self._model.cam_fovy[above] = _VIEW_HEIGHT
+        if orthographic:
+            camera = self._model.camera(_CAMERA).id
+            self._model.cam_projection[camera] = mujoco.mjtProjection.mjPROJ_ORTHOGRAPHIC
+            self._model.cam_fovy[camera] = _VIEW_HEIGHT
         self._data = mujoco.MjData(self._model)
         self._bodies = object_bodies(self._model)
         self._view = OffscreenView(self._model, width, height)

@@ -141,7 +141,7 @@ class Camera:
             raise RenderingError(self._unavailable.reason, self._unavailable.remedy)
         shot = Shot(phase="", caption="", objects=objects, joints=joints)
         encoded = io.BytesIO()
-        Image.fromarray(self._renderer(len(objects)).picture(shot, "top")).save(encoded, "JPEG", quality=_QUALITY)
+        Image.fromarray(self._renderer(len(objects)).picture(shot)).save(encoded, "JPEG", quality=_QUALITY)
         return encoded.getvalue()
 
     def _renderer(self, objects: int) -> SceneRenderer:
