@@ -197,7 +197,7 @@ class Actor:
         self.speak(visitor, "teach", session["next"]["prompt"])
         visitor.hand(self.path(session))
         visitor.page.locator("#teach-it").click()
-        visitor.see("#teach-count", f"Demonstration {len(session['demonstrations']) + 1}")
+        visitor.see("#teach-count", f"Demonstration {len(session['demonstrations']) + 2}")
 
 
 @pytest.fixture(scope="module")

@@ -66,7 +66,7 @@ def teach_twice_clicked(visitor: Any, count: int) -> Any:
     for number in (1, 2):
         visitor.sign("teach", number, np.array([[0.0, 0.0], [1.0, 0.3], [0.2, 1.0]]))
     visitor.page.locator("#teach-it").dblclick()
-    visitor.see("#teach-count", f"Demonstration {count}")
+    visitor.see("#teach-count", f"Demonstration {count + 1}")
     session = visitor.session()
     assert len(session["demonstrations"]) == count
     return visitor.api(f"sessions/{session['id']}/demonstrations/{count - 1}")["hand"]

@@ -343,10 +343,10 @@ DATA = {
 def test_the_matrix_says_which_demonstrations_are_compared_and_how_alike_they_are(call: Call) -> None:
     extent, told = call("matrix", MATRIX, DATA, "maximum", [0, 1])
     assert extent == [0, 1]  # logarithms, the diagonal left out
-    assert told == "Demonstrations 1 and 0, movements 1 and 0: 2.72 / rad²"
+    assert told == "Demonstrations 2 and 1, movements 2 and 1: 2.72 / rad²"
     assert call("matrix", MATRIX, DATA, "0 1", [1, 0])[1].endswith(": 2.00 / rad²")
-    assert call("matrix", MATRIX, DATA, "0 0", [1, 1])[1] == "Demonstration 0 with itself."
-    assert call("matrix", MATRIX, {**DATA, "labels": [1, 1]}, "maximum", [0, 1])[1].count("both movement 1") == 1
+    assert call("matrix", MATRIX, DATA, "0 0", [1, 1])[1] == "Demonstration 1 with itself."
+    assert call("matrix", MATRIX, {**DATA, "labels": [1, 1]}, "maximum", [0, 1])[1].count("both movement 2") == 1
 
 
 @pytest.mark.parametrize("name", LANGUAGES)
@@ -361,10 +361,10 @@ def test_the_page_says_a_prompt_as_the_server_does(name: str, call: Call) -> Non
 @pytest.mark.parametrize(
     ("count", "left", "old", "told"),
     [
-        (3, 9, None, "Demonstration 3 · 9 to go"),
-        (12, 0, None, "Demonstration 12 · all were shown, more are welcome"),
-        (3, 9, 1, "Redraw demonstration 1"),
-        (3, None, None, "Demonstration 3"),
+        (3, 9, None, "Demonstration 4 · 9 to go"),
+        (12, 0, None, "Demonstration 13 · all were shown, more are welcome"),
+        (3, 9, 1, "Redraw demonstration 2"),
+        (3, None, None, "Demonstration 4"),
     ],
 )
 def test_a_demonstration_is_counted(count: int, left: int | None, old: int | None, told: str, call: Call) -> None:
@@ -383,13 +383,13 @@ def test_what_is_to_be_drawn_is_said_for_prompts_for_made_up_signs_and_for_redra
     assert again.endswith("about the red object. Draw again whatever went wrong.")
     assert call("prompts", say, session, None, 1) == "Draw again whatever went wrong."
     shown = call("prompts", "({ shownTexts }, session) => [0, 1].map((n) => shownTexts(session, n))", session)
-    assert shown == [["Demonstration 0, by person", again.split(" Draw again")[0]], ["Demonstration 1", ""]]
+    assert shown == [["Demonstration 1, by person", again.split(" Draw again")[0]], ["Demonstration 2", ""]]
 
 
 def test_a_belief_is_said_with_its_probability(call: Call) -> None:
     belief = {"labels": [2, 0], "focus": [1, 0], "focus_probability": [[0.029, 0.971], [1, 0]]}
     say = "({ beliefSentence }, belief) => [0, 1].map((n) => beliefSentence(belief, n))"
-    told = ["Movement 2 about the green object, 97 %", "Movement 0 about the red object, 100 %"]
+    told = ["Movement 3 about the green object, 97 %", "Movement 1 about the red object, 100 %"]
     assert call("pictures", say, belief) == told
 
 

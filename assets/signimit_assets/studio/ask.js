@@ -202,8 +202,8 @@ export class Ask {
       return make(
         "li",
         {},
-        make("span", {}, `${answer.number}. ${capital(answer.text)} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
-        button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number}` }),
+        make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
+        button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number + 1}` }),
       );
     });
     const judged = answers.filter(({ verdict }) => verdict !== null);

@@ -78,16 +78,16 @@ function demonstrationCard(belief) {
   const body = make("div", { className: "chosen" });
   const strip = make("div", { className: "strip", role: "group", "aria-label": "All demonstrations" });
   for (let number = 0; number < count; number += 1) strip.append(thumb(belief, number));
-  fill(body, belief, selected, `Demonstration ${selected}`);
+  fill(body, belief, selected, `Demonstration ${selected + 1}`);
   const actions = make(
     "div",
     { className: "row" },
-    button("Replay", () => hooks.replay(selected), { "aria-label": `Replay demonstration ${selected}` }),
-    button("Redraw", () => hooks.redraw(selected), { "aria-label": `Redraw demonstration ${selected}` }),
-    button("Delete", () => hooks.remove(selected), { "aria-label": `Delete demonstration ${selected}` }),
+    button("Replay", () => hooks.replay(selected), { "aria-label": `Replay demonstration ${selected + 1}` }),
+    button("Redraw", () => hooks.redraw(selected), { "aria-label": `Redraw demonstration ${selected + 1}` }),
+    button("Delete", () => hooks.remove(selected), { "aria-label": `Delete demonstration ${selected + 1}` }),
   );
   return card(
-    `Demonstration ${selected}`,
+    `Demonstration ${selected + 1}`,
     body,
     make("p", { className: "lead", id: "chosen-belief", textContent: sentence }),
     actions,
@@ -103,11 +103,11 @@ function thumb(belief, number) {
     className: "thumb",
     title: about,
     "aria-pressed": String(number === selected),
-    "aria-label": `Demonstration ${number}. ${about}${sure ? "" : ". Unsure"}`,
+    "aria-label": `Demonstration ${number + 1}. ${about}${sure ? "" : ". Unsure"}`,
     onclick: () => select(number),
   });
   const picture = make("span", { className: "picture-box" });
-  made.append(picture, make("span", { className: "number", textContent: sure ? String(number) : `${number} ?` }));
+  made.append(picture, make("span", { className: "number", textContent: sure ? String(number + 1) : `${number + 1} ?` }));
   whenSeen(made, () => fill(picture, belief, number, ""));
   return made;
 }
@@ -139,9 +139,9 @@ function movementCard(belief) {
     return make(
       "li",
       { className: "meaning" },
-      movementPicture(word.drawings, `Movement ${number}, as it was drawn about the object`, NEIGHBOURHOOD),
-      make("div", {}, make("b", { textContent: `Movement ${number}` }), chips(belief, members)),
-      signs(word.strokes, `means movement ${number}`),
+      movementPicture(word.drawings, `Movement ${number + 1}, as it was drawn about the object`, NEIGHBOURHOOD),
+      make("div", {}, make("b", { textContent: `Movement ${number + 1}` }), chips(belief, members)),
+      signs(word.strokes, `means movement ${number + 1}`),
     );
   });
   return card(`${plural(belief.movements.length, "movement")}, and the signs for them`, make("ul", { className: "plain-list" }, ...rows));
@@ -168,12 +168,12 @@ function chips(belief, members) {
   const made = members.map((number) => {
     const focus = belief.focus[number];
     const unsure = !store.session.demonstrations[number].sure;
-    const label = `Demonstration ${number}, about ${objectName(focus)}${unsure ? ", unsure" : ""}`;
+    const label = `Demonstration ${number + 1}, about ${objectName(focus)}${unsure ? ", unsure" : ""}`;
     return make(
       "button",
       { type: "button", className: "chip", "aria-label": label, title: label, onclick: () => select(number) },
       objectPatch(focus),
-      `${number}${unsure ? " ?" : ""}`,
+      `${number + 1}${unsure ? " ?" : ""}`,
     );
   });
   return make("div", { className: "chips" }, ...made);

@@ -114,9 +114,9 @@ export class Matrix {
   describe([row, column]) {
     const { order, labels } = this.data;
     const [t, k] = [order[row], order[column]];
-    if (t === k) return `Demonstration ${t} with itself.`;
-    const kin = labels[t] === labels[k] ? `both movement ${labels[t]}` : `movements ${labels[t]} and ${labels[k]}`;
-    return `Demonstrations ${t} and ${k}, ${kin}: ${this.values[t][k].toFixed(2)} / rad²`;
+    if (t === k) return `Demonstration ${t + 1} with itself.`;
+    const kin = labels[t] === labels[k] ? `both movement ${labels[t] + 1}` : `movements ${labels[t] + 1} and ${labels[k] + 1}`;
+    return `Demonstrations ${t + 1} and ${k + 1}, ${kin}: ${this.values[t][k].toFixed(2)} / rad²`;
   }
 }
 

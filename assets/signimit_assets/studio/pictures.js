@@ -86,7 +86,7 @@ function ring([x, y], share) {
 export function beliefSentence(belief, number) {
   const focus = belief.focus[number];
   const sure = percent(belief.focus_probability[number][focus]);
-  return capital(`movement ${belief.labels[number]} about the ${objectName(focus)} object, ${sure}`);
+  return capital(`movement ${belief.labels[number] + 1} about the ${objectName(focus)} object, ${sure}`);
 }
 
 /** A thumb, up or down. */

@@ -16,17 +16,17 @@ export function sentence(session, prompt, old) {
 
 /** Say which demonstration comes, and how many are to follow. */
 export function counted(session, old) {
-  if (old !== null) return `Redraw demonstration ${old}`;
-  const { length } = session.demonstrations;
+  if (old !== null) return `Redraw demonstration ${old + 1}`;
+  const next = session.demonstrations.length + 1;
   const { left, prompt } = session.next;
-  if (prompt && left) return `Demonstration ${length} · ${left} to go`;
-  return prompt && length ? `Demonstration ${length} · all were shown, more are welcome` : `Demonstration ${length}`;
+  if (prompt && left) return `Demonstration ${next} · ${left} to go`;
+  return prompt && next > 1 ? `Demonstration ${next} · all were shown, more are welcome` : `Demonstration ${next}`;
 }
 
 /** Say which demonstration is played, and what it was to be. */
 export function shownTexts({ demonstrations, language }, number) {
   const { prompt, by } = demonstrations[number];
-  return [`Demonstration ${number}${by ? `, by ${by}` : ""}`, prompt && language ? promptText(language, prompt) : ""];
+  return [`Demonstration ${number + 1}${by ? `, by ${by}` : ""}`, prompt && language ? promptText(language, prompt) : ""];
 }
 
 /** Say what a request of a language asks to draw. */

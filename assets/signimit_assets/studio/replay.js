@@ -35,8 +35,8 @@ export class Replay {
   changed(session, before) {
     const kept = before?.id === session.id ? this.choice.value : "";
     const options = [
-      ...session.demonstrations.map(({ number }) => [`demonstrations/${number}`, `Demonstration ${number}`]),
-      ...session.answers.map(({ number, text }) => [`answers/${number}`, `Answer ${number}: ${text}`]),
+      ...session.demonstrations.map(({ number }) => [`demonstrations/${number}`, `Demonstration ${number + 1}`]),
+      ...session.answers.map(({ number, text }) => [`answers/${number}`, `Answer ${number + 1}: ${text}`]),
     ];
     this.choice.replaceChildren(...options.map(([value, textContent]) => make("option", { value, textContent })));
     if (options.some(([value]) => value === kept)) this.choice.value = kept;

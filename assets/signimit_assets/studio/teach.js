@@ -123,7 +123,7 @@ export class Teach {
     const old = this.draft.number;
     const ready = this.pads.every((pad) => pad.stroke) && this.table.hand !== null;
     this.teachIt.disabled = !ready || this.busy;
-    this.teachIt.textContent = this.busy ? "Learning…" : old === null ? "Teach this" : `Save demonstration ${old}`;
+    this.teachIt.textContent = this.busy ? "Learning…" : old === null ? "Teach this" : `Save demonstration ${old + 1}`;
     this.back.hidden = old === null;
     byId("teach-count").textContent = counted(session, old);
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
@@ -181,7 +181,7 @@ export class Teach {
   async remove(number) {
     if (this.draft.number !== null) this.begin();
     await attempt(() => change((revision) => api.remove(path(`demonstrations/${number}?revision=${revision}`))));
-    announce(`Demonstration ${number} is deleted; undo brings it back.`);
+    announce(`Demonstration ${number + 1} is deleted; undo brings it back.`);
   }
 
   async redraw(number) {

@@ -51,8 +51,8 @@ def belief_json(model: ImitationModel) -> dict[str, Any]:
 
 def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
     """Return the demonstration that would teach the model most, with a sentence."""
-    asked = f"movement {wish.movement} about the {object_name(wish.focus)} object"
-    words = [f"the {ordinal(word)} of demonstration {number}" for word, number in enumerate(wish.copied)]
+    asked = f"movement {wish.movement + 1} about the {object_name(wish.focus)} object"
+    words = [f"the {ordinal(word)} of demonstration {number + 1}" for word, number in enumerate(wish.copied)]
     known = ((model.labels == wish.movement) & (model.focus == wish.focus)).any()
     reason = "to be surer" if known else "as nobody has shown me that yet"
     return {
@@ -72,13 +72,14 @@ def doubts(reasons: Reasons) -> list[dict[str, Any]]:
     for number in reasons.unsure_movements:
         found.setdefault(number, []).append("its movement is in doubt")
     return [
-        {"number": number, "text": f"Demonstration {number}: {', '.join(found[number])}."} for number in sorted(found)
+        {"number": number, "text": f"Demonstration {number + 1}: {', '.join(found[number])}."}
+        for number in sorted(found)
     ]
 
 
 def understood_text(movement: int, focus: int, confidence: float) -> str:
-    """Return a sentence of what was understood, e.g. "movement 2 about the green object, 94 %"."""
-    return f"movement {movement} about the {object_name(focus)} object, {100 * confidence:.0f} %"
+    """Return a sentence of what was understood, which counts from 1, e.g. "movement 2 about the green object, 94 %"."""
+    return f"movement {movement + 1} about the {object_name(focus)} object, {100 * confidence:.0f} %"
 
 
 def _signs_json(model: ImitationModel, word: int, which: NDArray[np.bool_]) -> list[Any]:

@@ -118,7 +118,7 @@ def film_demonstration(shown: DrawnDemonstration, number: int) -> bytes:
     Raises:
         RenderingError: If there is no OpenGL.
     """
-    return _film(show_exchange(shown.demonstration, f"Demonstration {number}"), len(shown.objects))
+    return _film(show_exchange(shown.demonstration, f"Demonstration {number + 1}"), len(shown.objects))
 
 
 def film_answer(answer: Answer, track: Track) -> bytes:
@@ -164,7 +164,7 @@ def _draw_answers(model: ImitationModel, answers: Sequence[tuple[Answer, Track]]
         obeyed.setdefault(key, []).append(answer.good)
     if not paths:
         raise InvalidInputError("figure 7", "at least one answer of the arm", "none")
-    names = [f"movement {m}" for m in range(1 + max(movement for movement, _ in paths))]
+    names = [f"movement {m + 1}" for m in range(1 + max(movement for movement, _ in paths))]
     shown = set(zip(model.labels.tolist(), model.focus.tolist(), strict=True))
     return figures.draw_reproductions(paths, obeyed, names, frozenset(set(paths) - shown))
 

@@ -163,7 +163,7 @@ def test_the_simulated_hand_draws_the_right_movement_about_the_right_object_for_
     page.post(f"{base}/table", {})
     answer = page.post(f"{base}/ask", {"signs": page.signs(taught_id, request, 99), "request": request})
     assert answer["focus"] == request["focus"]
-    assert answer["text"].startswith(f"movement {answer['movement']} about the blue object, ")
+    assert answer["text"].startswith(f"movement {answer['movement'] + 1} about the blue object, ")
     for _ in range(240):
         time.sleep(0.25)
         track = page.get(f"{base}/answers/{answer['number']}")
