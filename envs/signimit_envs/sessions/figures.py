@@ -13,7 +13,7 @@ from signimit.learners.paper import PaperEvidence
 from signimit.plots import paper as figures
 from signimit.plots.explanation import draw_explanation
 from signimit.similarity import maximum_similarities, policy_similarities
-from signimit_envs.sessions.session import Reproduction, SessionResult
+from signimit_envs.sessions.session import SessionResult
 
 DOTS_PER_INCH = 130
 
@@ -45,25 +45,12 @@ def write_figures(paper: SessionResult, ours: SessionResult, folder: Path) -> No
 
 
 def _draw_reproductions(result: SessionResult, imitator: str) -> Figure:
-    reproductions, language = by_request(result), result.plan.language
-    return figures.draw_reproductions(
-        {request: [path_about_object(r) for r in rs] for request, rs in reproductions.items()},
-        {request: [r.obeyed for r in rs] for request, rs in reproductions.items()},
-        language.movements,
-        language.held_back,
-        imitator,
-    )
-
-
-def by_request(result: SessionResult) -> dict[tuple[int, int], list[Reproduction]]:
-    """Return the reproductions of each request, by (movement, focus)."""
-    return {
-        (request.movement, request.focus): [r for r in result.reproductions if r.command.request == request]
-        for request in result.plan.language.requests
-    }
-
-
-def path_about_object(reproduction: Reproduction) -> NDArray[np.float64]:
-    """Return the path of the hand in the frame of the object asked for, shape (T, 2), m."""
-    command = reproduction.command
-    return np.asarray(reproduction.answer.path - command.objects[command.request.focus])
+    """Draw figure 7 of a session, each path in the frame of the object asked for."""
+    language = result.plan.language
+    paths: dict[tuple[int, int], list[NDArray[np.float64]]] = {request: [] for request in language.requests}
+    obeyed: dict[tuple[int, int], list[bool]] = {request: [] for request in language.requests}
+    for reproduction in result.reproductions:
+        command = reproduction.command
+        paths[command.request].append(reproduction.answer.path - command.objects[command.request.focus])
+        obeyed[command.request].append(reproduction.obeyed)
+    return figures.draw_reproductions(paths, obeyed, language.movements, language.held_back, imitator)

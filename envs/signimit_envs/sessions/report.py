@@ -22,9 +22,7 @@ from signimit_envs.sessions.session import Reproduction, SessionResult
 
 FORMAT = 3  # 2 had one learner; 1 called the misfit path_error
 PACKAGES = ("signimit", "numpy", "scipy", "mujoco", "mink", "gymnasium", "imageio", "matplotlib")
-_RULE = "  "  # between the columns of a table
 _MEASURES = "obeyed  misfit  coverage  turns"
-_WIDTH = len(_MEASURES)
 
 
 def session_report(results: Mapping[str, SessionResult], people: People[Strokes]) -> dict[str, Any]:
@@ -90,7 +88,7 @@ def truth_text(session: Session) -> str:
 
 
 def _line(name: str, cells: Iterable[str]) -> str:
-    return f"{name:35s}" + _RULE.join(f"{cell:{_WIDTH}s}" for cell in cells)
+    return f"{name:35s}" + "  ".join(f"{cell:{len(_MEASURES)}s}" for cell in cells)
 
 
 def _measures(request: Request, result: SessionResult) -> str:

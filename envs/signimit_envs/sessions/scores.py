@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from signimit.benchmark.scoring import judge_inference, same_partition
 from signimit.benchmark.statistics import Share
@@ -43,17 +42,12 @@ def restart_grouping(result: SessionResult, restarts: int = RESTARTS) -> Share:
         restarts: How many runs.
     """
     seed, truth, method = result.plan.seed, result.session.truth, algorithm_reading(result)
-    similarity = maximum_similarities(session_distances(result))
+    demonstrations = result.session.demonstrations
+    similarity = maximum_similarities(policy_distances(demonstrations.paths, demonstrations.objects))
     rngs = [np.random.default_rng(seed), *np.random.default_rng([seed, 1]).spawn(restarts - 1)]
     return Share.of(
         same_partition(group_movements(similarity, method=method, rng=rng).labels, truth.movement) for rng in rngs
     )
-
-
-def session_distances(result: SessionResult) -> NDArray[np.float64]:
-    """Return Δ of the demonstrations, shape (N, N, O, O), rad², whatever the method."""
-    demonstrations = result.session.demonstrations
-    return policy_distances(demonstrations.paths, demonstrations.objects)
 
 
 def failing_stage(result: SessionResult, reproduction: Reproduction) -> str:

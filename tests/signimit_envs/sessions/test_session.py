@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -172,3 +173,12 @@ def test_a_study_adds_sessions_up_and_names_what_failed(result: SessionResult) -
     report = study_report([outcome, failed], "paper", "knn")
     assert report["shares"]["obeyed"]["total"] == 18
     assert [s["seed"] for s in report["sessions"]] == [result.plan.seed, 99]
+
+
+def test_figures_of_the_paper_are_drawn_of_the_papers_session_only(
+    results: dict[str, SessionResult], tmp_path: Path
+) -> None:
+    figures = pytest.importorskip("signimit_envs.sessions.figures", reason="figures need signimit[scripts]")
+    with pytest.raises(InvalidInputError, match="method of the paper's session: expected one with Algorithm 1"):
+        figures.write_figures(results["ours"], results["ours"], tmp_path)
+    assert list(tmp_path.iterdir()) == []
