@@ -65,7 +65,7 @@ def session_table(results: Mapping[str, SessionResult]) -> str:
         shown = "" if request in language.seen else " (never shown)"
         asked = f"{language.movements[request.movement]}, {object_name(request.focus)}{shown}"
         lines.append(_line(asked, [_measures(request, r) for r in columns]))
-    lines.append("Medians; the misfit is in half sizes of the movement asked for, inf where nothing was drawn.")
+    lines.append("Medians over commands; the misfit is in half sizes.")
     shares = [obeyed_shares(r) for r in columns]
     lines += ["", *(_line(f"obeyed, {name}", [_share_text(s[name]) for s in shares]) for name in shares[0])]
     return "\n".join(line.rstrip() for line in lines)
