@@ -93,8 +93,9 @@ Written by `sh scripts/run.sh benchmark table` from the JSON files beside it; do
 measured. The people are synthetic. Each command moves a hand for {SECONDS:g} s at 50 Hz, without physics.
 
 Commands obeyed, in per cent, with 95 % intervals; *all* is the mean over the splits. Entries in italics are oracles:
-they are told what no learner is told. {CRITERION} All rows were judged by one judge, {judges}, on the
-same sessions.
+they are told what no learner is told. All rows were judged by one judge, {judges}, on the same sessions.
+
+{CRITERION}
 
 {overview(summaries)}
 

@@ -54,7 +54,7 @@ def compare_policies(
     plan = StudyPlan(labels=labels or tuple(dict.fromkeys(library.labels)), sessions=sessions, starts=starts, seed=seed)
     total = len(plan.labels) * sessions * len(kinds)
     trials = list(tqdm(run_study(library, plan, kinds), total=total, unit="trial"))
-    summaries = summarise(trials)
+    summaries = summarise(trials, starts)
     out.mkdir(parents=True, exist_ok=True)
     with whole_files(out) as folder:
         (folder / "table.md").write_text(study_table(summaries) + "\n")

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.results import installed_versions
 from signimit.benchmark.scoring import InferenceVerdict, judge_inference
 from signimit.benchmark.statistics import Share
@@ -79,6 +80,7 @@ def study_report(outcomes: Sequence[SessionOutcome], method: str, policy: str) -
     return {
         "method": method,
         "policy": policy,
+        "judge": judge_hash(),
         "versions": {"platform": platform.platform(), **installed_versions(*PACKAGES)},
         "shares": {name: share_entry(share) for name, share in study_shares(outcomes).items()},
         "sessions": [

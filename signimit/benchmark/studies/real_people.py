@@ -84,9 +84,9 @@ def real_conditions(recordings: Recordings, sessions: int = 0, language: Languag
         signer = signers[number % len(signers)]
         shift = number // math.lcm(len(signers), len(movers))  # or the same two would meet again
         mover = movers[(number + shift) % len(movers)]
-        who = partial(_these_two, recordings.signs.select(writer=signer), movements.select(writer=mover))
+        pair = partial(_these_two, recordings.signs.select(writer=signer), movements.select(writer=mover))
         name = f"{number} signer {signer} mover {mover}"
-        conditions.append(Condition(name=name, change="real people", language=language, choose_people=who))
+        conditions.append(Condition(name=name, change="real people", language=language, choose_people=pair))
     return conditions
 
 

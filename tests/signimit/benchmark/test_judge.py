@@ -24,7 +24,7 @@ def _read_anew() -> Iterator[None]:
 def hash_where(monkeypatch: pytest.MonkeyPatch, **sources: str) -> str:
     """Return the judge's hash as if modules had other texts."""
     given = inspect.getsource
-    monkeypatch.setattr(judge.inspect, "getsource", lambda m: sources.get(m.__name__.rpartition(".")[2], given(m)))
+    monkeypatch.setattr(inspect, "getsource", lambda m: sources.get(m.__name__.rpartition(".")[2], given(m)))
     judge.judge_hash.cache_clear()
     judge._definitions.cache_clear()
     return judge.judge_hash()

@@ -29,7 +29,7 @@ def folder(tmp_path: Path) -> Path:
 
 def test_tables_and_figures_come_out_of_the_records(run: Any, folder: Path) -> None:
     said = run("study", "cells", "--sessions", "1", "--only", CELL, "--out", folder)
-    assert "| synthetic 2x2x1 plain | 1 | **100** [21, 100] | 0 |" in said
+    assert "| synthetic 2x2x1 plain | 1 | **100** [21, 100] | 0 [0, 79] |" in said
     facts = json.loads((folder / "cells.json").read_text())
     assert facts["beaten"] == []
     assert facts["command"].startswith("python -m signimit study cells --sessions 1 --only 'synthetic ")
