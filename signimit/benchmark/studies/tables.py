@@ -55,7 +55,7 @@ def beaten_cells(rows: Sequence[MethodScore]) -> list[tuple[str, str, int, int]]
 
 
 def shares_table(rows: Sequence[MethodScore]) -> str:
-    """Return the share of sessions with every inference right, in per cent with 95 % intervals, as Markdown: a line for each cell."""
+    """Return the share of sessions with every inference right, per cent [95 %], as Markdown: a line for each cell."""
     methods = list(dict.fromkeys(row.method for row in rows))
     lines = []
     for cell in dict.fromkeys(row.cell for row in rows):

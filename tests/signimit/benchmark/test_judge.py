@@ -51,5 +51,12 @@ def test_comments_docstrings_and_what_does_not_score_do_not(monkeypatch: pytest.
     assert hash_where(monkeypatch, scoring="# a comment\n" + inspect.getsource(scoring)) == as_it_is
 
 
+def test_the_hash_is_of_all_that_scores() -> None:
+    for name in judge._ENTRANCES:
+        assert name in judge._definitions(scoring)
+    used = {"performed", "TOLERANCE", "Performance"}
+    assert used <= set(judge._definitions(evaluation))
+
+
 def test_the_criterion_names_the_thresholds() -> None:
     assert f"at most {evaluation.TOLERANCE:g} half sizes" in judge.CRITERION
