@@ -255,9 +255,16 @@ def real_people(
         write_csv(folder / "people.csv", RealRow._fields, rows)
         (folder / "people.md").write_text(f"{CRITERION}\n\n{people_table(rows)}\n", encoding="utf-8")
         sources = [recordings.signs.source, recordings.movements.source]
-        people = {role: len({record[role] for record in records}) for role in ("signer", "mover")}
-        write_facts(folder / "people.json", {"people": sources, **people, "seed": seed, "judge": judge_hash()})
-    print(f"{CRITERION}\n\n{people_table(rows)}\nWritten to {out}.")
+        turns = {role: {record[role] for record in records} for role in ("signer", "mover")}
+        given = {"signer": recordings.signs.writers, "mover": recordings.movements.writers}
+        idle = [f"{role} {who}" for role, all_of_them in given.items() for who in sorted({*all_of_them} - turns[role])]
+        people = {role: len(who) for role, who in turns.items()}
+        facts = {"people": sources, **people, "without a turn": idle, "seed": seed, "judge": judge_hash()}
+        write_facts(folder / "people.json", facts)
+    print(f"{CRITERION}\n\n{people_table(rows)}")
+    if idle:
+        print(f"Without a turn, or with too few strokes: {', '.join(idle)}.")
+    print(f"Written to {out}.")
 
 
 def write_facts(path: Path, facts: dict[str, Any]) -> None:

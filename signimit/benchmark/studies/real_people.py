@@ -5,6 +5,7 @@ The sessions are composed, and the hands' paths judged, as those of the benchmar
 
 from __future__ import annotations
 
+import hashlib
 import math
 import os
 from collections import Counter
@@ -16,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from signimit.benchmark.entries import ENTRANTS
-from signimit.benchmark.running import make_entry, obey
+from signimit.benchmark.running import code_hash, make_entry, obey
 from signimit.benchmark.scoring import judge_inference, score_path
 from signimit.benchmark.statistics import estimate_share, share_text
 from signimit.benchmark.studies.conditions import Recordings
@@ -84,8 +85,13 @@ def real_conditions(recordings: Recordings, sessions: int = 0, language: Languag
         signer = signers[number % len(signers)]
         shift = number // math.lcm(len(signers), len(movers))  # or the same two would meet again
         mover = movers[(number + shift) % len(movers)]
-        pair = partial(_these_two, recordings.signs.select(writer=signer), movements.select(writer=mover))
-        name = f"{number} signer {signer} mover {mover}"
+        strokes = recordings.signs.select(writer=signer), movements.select(writer=mover)
+        # Records of other code, or of other people of these names, are another session's.
+        identity = hashlib.sha256(code_hash().encode())
+        for stroke in (*strokes[0], *strokes[1]):
+            identity.update(stroke.points.tobytes())
+        name = f"{number} {identity.hexdigest()[:8]} signer {signer} mover {mover}"
+        pair = partial(_these_two, *strokes)
         conditions.append(Condition(name=name, change="real people", language=language, choose_people=pair))
     return conditions
 

@@ -73,7 +73,7 @@ def test_the_figure_has_a_panel_for_each_split(tmp_path: Path) -> None:
     from signimit.plots.benchmark import draw_results
 
     figure = draw_results(SUMMARIES)
-    assert [panel.get_title(loc="left") for panel in figure.axes] == ["paper", "unseen-pair"]
+    assert [panel.get_title(loc="left") for panel in figure.axes] == ["paper, n = 9", "unseen-pair, n = 9"]
     paper = figure.axes[0]
     assert [label.get_text() for label in paper.get_yticklabels()] == ["good", "clone", "partial", "all-knowing"]
     lines = [np.asarray(line.get_xydata()) for line in paper.get_lines()]

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from signimit.benchmark.studies import real_people
 from signimit.benchmark.studies.conditions import Recordings
 from signimit.benchmark.studies.real_people import (
     METHODS,
@@ -46,6 +47,19 @@ def test_everybody_has_a_turn_and_meets_everybody_in_the_end(recordings: Recordi
     assert len(once) == 4
     assert len(set(many)) == 8
     assert set(Counter(signer for signer, _ in many).values()) == {2}
+
+
+def test_other_strokes_and_other_code_make_other_sessions(
+    recordings: Recordings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    names = {condition.name for condition in real_conditions(recordings)}
+    assert names == {condition.name for condition in real_conditions(recordings)}
+    swapped = Recordings(recordings.signs, StrokeLibrary(
+        recordings.movements.strokes[::-1], recordings.movements.labels[::-1], recordings.movements.writers[::-1], ""
+    ))  # fmt: skip
+    assert names.isdisjoint(condition.name for condition in real_conditions(swapped))
+    monkeypatch.setattr(real_people, "code_hash", lambda: "other")
+    assert names.isdisjoint(condition.name for condition in real_conditions(recordings))
 
 
 def test_who_drew_too_little_is_left_out(recordings: Recordings) -> None:
