@@ -102,7 +102,7 @@ offer_browser() {
 purpose_of() {
     case "$1 ${2-}" in
         'studio '* | 'timing studio') printf 'studio' ;;
-        'study '* | 'benchmark '* | 'timing growth') printf 'study' ;;
+        'study '* | 'benchmark '* | 'timing growth' | 'results make') printf 'study' ;;
         'convert '* | 'replay '*) printf 'formats' ;;
         *) printf 'run' ;;
     esac

@@ -1,7 +1,8 @@
 """Result files: a line of JSON for each session, and a summary of all of them.
 
-A killed run goes on where it stopped. Results of other code, other sessions or another entry are never mixed: they are
-refused in one sentence, and left as they are.
+A killed run goes on where it stopped. Results of other code, other sessions or another entry are never mixed in one
+row, and rows of another judge or of other sessions never in one table: they are refused in one sentence, and left as
+they are.
 """
 
 from __future__ import annotations
@@ -17,11 +18,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from signimit.benchmark.entries import EntrantReference, get_entrant
+from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.protocol import Oracle
 from signimit.benchmark.running import Engine, SessionTask, code_hash
 from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
-from signimit.benchmark.statistics import STAGES, estimate_stage
+from signimit.benchmark.statistics import STAGES, Estimate, estimate_share, estimate_stage
 from signimit.exceptions import FileFormatError
 from signimit.io.safe_files import Record, append_record, read_records, replaced_file
 
@@ -121,6 +123,7 @@ def summarise(file: ResultFile) -> Summary:
         stages = {stage: estimate_stage(stage, mine) for stage in STAGES}
         splits[name] = {
             "sha256": split_hash(name),
+            "sessions_sha256": hashlib.sha256(" ".join(r.get("session", "") for r in mine).encode()).hexdigest(),
             "seeds": _ranges([r["seed"] for r in mine]),
             "sessions": len(mine),
             "demonstrations": sum(r["demonstrations"] for r in mine),
@@ -130,12 +133,31 @@ def summarise(file: ResultFile) -> Summary:
         }
     facts = {**file.header, "title": entrant.title, "oracle": isinstance(entrant, Oracle)}
     del facts["splits"]
+    every = estimate_all_splits(records)
     return {
         **facts,
+        "judge": judge_hash(),  # of the records, too: they are of this code
         "versions": {"machine": platform.machine(), **installed_versions(*PACKAGES)},
         "digest": records_digest(records),
+        "all": None if every is None else asdict(every),
         "splits": splits,
     }
+
+
+def estimate_all_splits(records: Sequence[Record]) -> Estimate | None:
+    """Estimate the mean over the splits of the share of commands obeyed; None if their seeds are not the same.
+
+    The same seed is the same people in every split, so that all their commands are one cluster.
+    """
+    shares: dict[int, list[float]] = {}
+    commands: dict[int, int] = {}
+    for r in records:
+        shares.setdefault(r["seed"], []).append(sum(r["obeyed"]) / len(r["obeyed"]))
+        commands[r["seed"]] = commands.get(r["seed"], 0) + len(r["obeyed"])
+    splits = len({r["split"] for r in records})
+    if not records or any(len(met) < splits for met in shares.values()):
+        return None
+    return estimate_share([commands[s] * sum(met) / splits for s, met in shares.items()], list(commands.values()))
 
 
 def installed_versions(*packages: str) -> dict[str, str]:
@@ -181,19 +203,46 @@ def read_summaries(folder: Path) -> list[Summary]:
     Raises:
         FileFormatError: If one is not a whole summary of this version.
     """
-    summaries = []
-    for path in sorted(folder.glob("*.json")):
-        try:
-            summary = json.loads(path.read_text(encoding="utf-8"))
-            found = f"{summary['format']} version {summary['version']}"
-        except (ValueError, KeyError, TypeError):
-            found = "something else"
-        if found != f"{FORMAT} version {VERSION}":
-            raise FileFormatError(str(path), f"{FORMAT} version {VERSION}", found)
-        summaries.append(summary)
+    summaries = [_read_summary(path) for path in sorted(folder.glob("*.json"))]
     if not summaries:
         raise FileFormatError(str(folder), "results; `benchmark run` makes them", "none")
     return summaries
+
+
+def read_comparable_summaries(folder: Path) -> list[Summary]:
+    """Read all summaries of a folder, if they can stand in one table.
+
+    Raises:
+        FileFormatError: If one is not a whole summary of this version, was judged by another judge, or is of other
+            sessions than the one that has most of a split.
+    """
+    summaries = read_summaries(folder)
+    for summary, path in zip(summaries, sorted(folder.glob("*.json")), strict=True):
+        again = f"move it and its .jsonl away, then `benchmark run --entry {summary['entry']} --out {folder}` runs it"
+        if summary.get("judge") != judge_hash():
+            found = f"judge {summary['judge']}" if "judge" in summary else "none, as in version 0.1.0"
+            raise FileFormatError(str(path), f"a row of judge {judge_hash()} ({again} again)", found)
+        for name, split in summary["splits"].items():
+            if split["sha256"] != split_hash(name):
+                wanted = f"sessions of {name} with SHA-256 {split_hash(name)[:12]} ({again} on them)"
+                raise FileFormatError(str(path), wanted, split["sha256"][:12])
+            most = max((s for s in summaries if name in s["splits"]), key=lambda s: int(s["splits"][name]["sessions"]))
+            theirs = most["splits"][name]
+            if split["sessions_sha256"] != theirs["sessions_sha256"]:
+                wanted = f"the sessions of {name} that {most['entry']} met, seeds {theirs['seeds']} ({again} on them)"
+                raise FileFormatError(str(path), wanted, f"others, seeds {split['seeds']}")
+    return summaries
+
+
+def _read_summary(path: Path) -> Summary:
+    try:
+        summary: Summary = json.loads(path.read_text(encoding="utf-8"))
+        found = f"{summary['format']} version {summary['version']}"
+    except (ValueError, KeyError, TypeError):
+        found = "something else"
+    if found != f"{FORMAT} version {VERSION}":
+        raise FileFormatError(str(path), f"{FORMAT} version {VERSION}", found)
+    return summary
 
 
 def _short(value: object) -> str:

@@ -26,6 +26,12 @@ def wilson_interval(count: float, total: float) -> tuple[float, float]:
     return max(0.0, centre - half), min(1.0, centre + half)
 
 
+def share_text(count: int, total: int) -> str:
+    """Say a share with its n and Wilson's 95 % interval, e.g. ``19 of 20: 95.0 % [76.4, 99.1]``."""
+    low, high = wilson_interval(count, total)
+    return f"{count} of {total}: {100 * count / max(1, total):.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+
+
 @dataclass(frozen=True)
 class Share:
     """A count out of a total.

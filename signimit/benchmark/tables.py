@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
+from signimit.benchmark.judge import CRITERION
 from signimit.benchmark.results import Summary
 from signimit.benchmark.running import SECONDS
 from signimit.benchmark.splits import SPLITS
@@ -33,13 +34,24 @@ def overview(summaries: Sequence[Summary]) -> str:
     """Return the share of commands obeyed, in per cent: a line for each entry, a column for each split."""
     rows = ranked(summaries)
     names = [name for name in SPLITS if any(name in s["splits"] for s in rows)]
-    lines = []
+    counts = {
+        name: {s["splits"][name]["stages"]["obeyed"]["count"] for s in rows if name in s["splits"]} for name in names
+    }
+    lines = [("*commands, n*", "", *(" or ".join(map(str, sorted(counts[name]))) for name in names))]
     for summary in rows:
-        means = {name: found["stages"]["obeyed"]["mean"] for name, found in summary["splits"].items()}
-        whole = f"**{100 * mean_obeyed(summary):.0f}**" if set(names) <= set(means) else "-"
-        shares = (f"{100 * means[name]:.0f}" if name in means else "-" for name in names)
-        lines.append((_entry(summary), whole, *shares))
+        found = {name: split["stages"]["obeyed"] for name, split in summary["splits"].items()}
+        whole = summary.get("all") or {"mean": mean_obeyed(summary)}
+        cells = (_percent(found[name]) if name in found else "-" for name in names)
+        lines.append((_entry(summary), f"**{_percent(whole)}**" if set(names) <= set(found) else "-", *cells))
     return markdown_table(("", "all", *names), lines)
+
+
+def _percent(estimate: Mapping[str, float]) -> str:
+    """Say a mean in per cent, with its interval if it is known."""
+    interval = (
+        " [{:.0f}, {:.0f}]".format(*(100 * estimate[end] for end in ("low", "high"))) if "low" in estimate else ""
+    )
+    return f"{100 * estimate['mean']:.0f}{interval}"
 
 
 def split_table(summaries: Sequence[Summary], split: str) -> str:
@@ -51,8 +63,8 @@ def split_table(summaries: Sequence[Summary], split: str) -> str:
         found = summary["splits"][split]
         estimates = (found["stages"].get(stage) for stage in stages)
         cells = ("-" if e is None else "{mean:.2f} [{low:.2f}, {high:.2f}]".format(**e) for e in estimates)
-        lines.append((_entry(summary), found["sessions"], *cells))
-    return markdown_table(("", "sessions", *(STAGES[stage].title for stage in stages)), lines)
+        lines.append((_entry(summary), found["sessions"], found["stages"]["obeyed"]["count"], *cells))
+    return markdown_table(("", "sessions", "commands", *(STAGES[stage].title for stage in stages)), lines)
 
 
 def _entry(summary: Summary) -> str:
@@ -68,9 +80,11 @@ def leaderboard(summaries: Sequence[Summary]) -> str:
         seconds = sum(s["seconds"] for s in splits) / max(1, sessions)
         shown = sum(s["demonstrations"] for s in splits) / max(1, sessions)
         cost = f"{seconds:.2f}", f"{hours_for(MANY, seconds):.1f}"
-        facts.append((_entry(summary), summary["title"], f"{shown:.0f}", sessions, *cost, f"`{summary['code']}`"))
+        code = (summary.get("source") or summary["code"])[:16]
+        facts.append((_entry(summary), summary["title"], f"{shown:.0f}", sessions, *cost, f"`{code}`"))
     columns = ("entry", "what it is", "demonstrations", "sessions", "processor seconds a session", "hours for 10,000")
     stages = "\n".join(f"* *{stage.title}*: {stage.meaning}." for stage in STAGES.values())
+    judges = " or ".join(dict.fromkeys(f"`{s.get('judge', 'of version 0.1.0')}`" for s in summaries))
     met = (name for name in SPLITS if any(name in s["splits"] for s in summaries))
     parts = (f"\n### {n}\n\nChanged: {SPLITS[n].change}.\n\n{split_table(summaries, n)}\n" for n in met)
     return f"""# Leaderboard
@@ -78,14 +92,17 @@ def leaderboard(summaries: Sequence[Summary]) -> str:
 Written by `sh scripts/run.sh benchmark table` from the JSON files beside it; docs/benchmark.md says what is
 measured. The people are synthetic. Each command moves a hand for {SECONDS:g} s at 50 Hz, without physics.
 
-Commands obeyed, in per cent; *all* is the mean over the splits. Entries in italics are oracles: they are
-told what no learner is told.
+Commands obeyed, in per cent, with 95 % intervals; *all* is the mean over the splits. Entries in italics are oracles:
+they are told what no learner is told. All rows were judged by one judge, {judges}, on the same sessions.
+
+{CRITERION}
 
 {overview(summaries)}
 
 {markdown_table((*columns, "code"), facts)}
 
-Demonstrations are a session's, on average. Hours are of two processors.
+Demonstrations are a session's, on average. Hours are of two processors. The code is that of the entry's own file, or of
+signimit where the entry is part of it; it is not compared.
 
 ## Stage by stage, with 95 % intervals
 

@@ -31,7 +31,8 @@ def draw_results(summaries: Sequence[Summary]) -> Figure:
     figure = Figure(figsize=(11, 0.5 + down * (0.8 + 0.17 * len(rows))), layout="constrained")
     panels = figure.subplots(down, COLUMNS, sharex=True, sharey=True, squeeze=False)
     for name, panel in zip(names, panels.flat, strict=False):
-        panel.set_title(name, fontsize=9, loc="left")
+        counts = {s["splits"][name]["stages"]["obeyed"]["count"] for s in rows if name in s["splits"]}
+        panel.set_title(f"{name}, n = {' or '.join(map(str, sorted(counts)))}", fontsize=9, loc="left")
         for place, summary in enumerate(rows):
             if name in summary["splits"]:
                 found = summary["splits"][name]["stages"]["obeyed"]

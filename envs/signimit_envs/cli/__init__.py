@@ -29,7 +29,7 @@ COMMANDS = {
     "study": "learners and policies against their baselines",
     "train": "PPO of stable-baselines3 on the environments",
     "timing": "how long things take here, beside the plainest way: core, env, throughput, growth, studio",
-    "results": "the tables of the README from the files of results",
+    "results": "the folder of results, measured anew, and the tables of README and docs",
     "doctor": "what works on this machine, and the line that mends the rest",
 }
 

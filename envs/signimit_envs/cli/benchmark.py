@@ -9,7 +9,7 @@ from typing import Literal
 from tqdm import tqdm
 
 from signimit.benchmark.entries import ENTRANTS, refer_to
-from signimit.benchmark.results import ResultFile, read_summaries, run_missing, write_summary
+from signimit.benchmark.results import ResultFile, read_comparable_summaries, run_missing, write_summary
 from signimit.benchmark.running import Engine, local_engine
 from signimit.benchmark.shipped_sessions import SESSIONS
 from signimit.benchmark.splits import choose_splits
@@ -71,7 +71,7 @@ def write_table(*, out: Path = OUT) -> None:
     Args:
         out: Folder of the results.
     """
-    summaries = read_summaries(out)
+    summaries = read_comparable_summaries(out)
     with whole_files(out) as folder:
         (folder / "README.md").write_text(leaderboard(summaries), encoding="utf-8")
     print(overview(summaries))
@@ -86,7 +86,7 @@ def plot(*, out: Path = OUT) -> None:
     """
     from signimit.plots.benchmark import draw_results
 
-    figure = draw_results(read_summaries(out))
+    figure = draw_results(read_comparable_summaries(out))
     with whole_files(out) as folder:
         figure.savefig(folder / "obeyed.png", dpi=90)
     print(f"Written to {out / 'obeyed.png'}.")

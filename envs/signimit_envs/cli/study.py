@@ -9,11 +9,20 @@ from typing import Any
 
 from tqdm import tqdm
 
+from signimit.benchmark.judge import CRITERION, judge_hash
 from signimit.benchmark.results import installed_versions
 from signimit.benchmark.statistics import wilson_interval
 from signimit.benchmark.studies.asking import asking_conditions, run_lessons
 from signimit.benchmark.studies.conditions import Recordings, study_conditions
 from signimit.benchmark.studies.left_out_people import FoldRow, leave_people_out
+from signimit.benchmark.studies.real_people import (
+    RealRow,
+    people_table,
+    read_people,
+    real_conditions,
+    run_real_session,
+    tabulate_people,
+)
 from signimit.benchmark.studies.running import Run, run_session, run_sessions
 from signimit.benchmark.studies.signs import METHODS, QUIZZES, SignRow, run_quizzes
 from signimit.benchmark.studies.tables import (
@@ -35,7 +44,7 @@ from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import command_text
 from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
 
-OUT = Path("results/study")
+OUT = Path("out/study")
 UNDERSTOOD = 0.95  # share of commands that a lesson shall come to
 
 
@@ -217,6 +226,47 @@ def reading_signs(*, signs: Path | None = None, sessions: int = 20, out: Path = 
         write_facts(folder / "signs.json", {"people": library.source if library else "synthetic"})
 
 
+def real_people(
+    *,
+    signs: tuple[Path, ...],
+    movements: tuple[Path, ...],
+    sessions: int = 0,
+    seed: int = 0,
+    workers: int = 0,
+    out: Path = Path("out/real-people"),
+) -> None:
+    """Let real people demonstrate and ask, everybody in turn, and compare our defaults with the paper's method.
+
+    Goes on where a killed run stopped.
+
+    Args:
+        signs: Files of digits: pendigits-orig.tra and .tes as UCI distributes them, or libraries made of them.
+        movements: The $1 recogniser's folder xml_logs, or a library made of it.
+        sessions: How many, nine commands each; 0 for one turn of everybody.
+        seed: Of everything drawn at random.
+        workers: Processes; left out, one less than there are processors.
+        out: Folder for the records, one a session, and the table.
+    """
+    recordings = Recordings(read_people(signs), read_people(movements))
+    conditions = real_conditions(recordings, sessions)
+    records = run_missing(run_real_session, conditions, range(seed, seed + 1), workers, out / "sessions.jsonl")
+    rows = tabulate_people(records)
+    with whole_files(out) as folder:
+        write_csv(folder / "people.csv", RealRow._fields, rows)
+        (folder / "people.md").write_text(f"{CRITERION}\n\n{people_table(rows)}\n", encoding="utf-8")
+        sources = [recordings.signs.source, recordings.movements.source]
+        turns = {role: {record[role] for record in records} for role in ("signer", "mover")}
+        given = {"signer": recordings.signs.writers, "mover": recordings.movements.writers}
+        idle = [f"{role} {who}" for role, all_of_them in given.items() for who in sorted({*all_of_them} - turns[role])]
+        people = {role: len(who) for role, who in turns.items()}
+        facts = {"people": sources, **people, "without a turn": idle, "seed": seed, "judge": judge_hash()}
+        write_facts(folder / "people.json", facts)
+    print(f"{CRITERION}\n\n{people_table(rows)}")
+    if idle:
+        print(f"Without a turn, or with too few strokes: {', '.join(idle)}.")
+    print(f"Written to {out}.")
+
+
 def write_facts(path: Path, facts: dict[str, Any]) -> None:
     """Write how a table was made beside it."""
     made = {
@@ -228,5 +278,6 @@ def write_facts(path: Path, facts: dict[str, Any]) -> None:
 
 SUBCOMMANDS = {
     "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
+    "real-people": real_people,
     "policies": compare_policies, "lasa": compare_on_lasa,
 }  # fmt: skip

@@ -31,7 +31,7 @@ def compare_policies(
     sessions: int = 10,
     starts: int = 12,
     seed: int = 0,
-    out: Path = Path("results/policies"),
+    out: Path = Path("out/policies"),
 ) -> None:
     """Compare all kinds of policies on the same people, and draw what each does.
 
@@ -54,7 +54,7 @@ def compare_policies(
     plan = StudyPlan(labels=labels or tuple(dict.fromkeys(library.labels)), sessions=sessions, starts=starts, seed=seed)
     total = len(plan.labels) * sessions * len(kinds)
     trials = list(tqdm(run_study(library, plan, kinds), total=total, unit="trial"))
-    summaries = summarise(trials)
+    summaries = summarise(trials, starts)
     out.mkdir(parents=True, exist_ok=True)
     with whole_files(out) as folder:
         (folder / "table.md").write_text(study_table(summaries) + "\n")
@@ -73,7 +73,7 @@ def compare_policies(
 
 
 def compare_on_lasa(
-    *, folder: Path | None = None, kinds: tuple[str, ...] = POLICY_KINDS, out: Path = Path("lasa.csv")
+    *, folder: Path | None = None, kinds: tuple[str, ...] = POLICY_KINDS, out: Path = Path("out/lasa.csv")
 ) -> None:
     """Compare policies on the LASA handwriting set with the field's measures.
 
@@ -94,6 +94,7 @@ def compare_on_lasa(
             ]
             rows.append((shape.name, kind, *np.mean(errors, axis=0)))
     measures = (f"{name} [mm{'²' * (name == 'swept_area')}]" for name in ReproductionError._fields)
+    out.parent.mkdir(parents=True, exist_ok=True)
     write_csv(out, ("shape", "kind", *measures), rows)
     for kind in kinds:
         area, dtw, gap = np.mean([row[2:] for row in rows if row[1] == kind], axis=0)

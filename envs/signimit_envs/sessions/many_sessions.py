@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from signimit.benchmark.judge import CRITERION, judge_hash
 from signimit.benchmark.results import installed_versions
 from signimit.benchmark.scoring import InferenceVerdict, judge_inference
 from signimit.benchmark.statistics import Share
@@ -71,6 +72,7 @@ def study_table(outcomes: Sequence[SessionOutcome]) -> str:
         if failed:
             where = ", ".join(f"{seed} ({count})" for seed, count in sorted(failed.items()))
             lines.append(f"not obeyed because of {stage}: {failed.total()}, in sessions {where}")
+    lines.append(CRITERION)
     return "\n".join(lines)
 
 
@@ -79,6 +81,7 @@ def study_report(outcomes: Sequence[SessionOutcome], method: str, policy: str) -
     return {
         "method": method,
         "policy": policy,
+        "judge": judge_hash(),
         "versions": {"platform": platform.platform(), **installed_versions(*PACKAGES)},
         "shares": {name: share_entry(share) for name, share in study_shares(outcomes).items()},
         "sessions": [

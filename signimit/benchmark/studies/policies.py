@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from signimit.benchmark.statistics import estimate_share
 from signimit.benchmark.studies.path_quality import arrives_and_stays, back_after_shove, judge_path, shove_half_way
 from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError
@@ -154,26 +155,42 @@ def _mean(values: Iterable[float]) -> float:
 
 
 class Summary(NamedTuple):
-    """Measures of one kind over all trials: shares are means, the others medians, with the 95th percentile."""
+    """Measures of one kind over all trials: shares are means, the others medians, with the 95th percentile.
+
+    Attributes:
+        kind: Of policy.
+        measures: Middle and 95th percentile, by name.
+        intervals: Of the shares: 95 % interval for hands that come in clusters, one for each lesson.
+        lessons: How many lessons were tried.
+        hands: How many hands.
+    """
 
     kind: str
     measures: dict[str, tuple[float, float]]
+    intervals: dict[str, tuple[float, float]]
+    lessons: int
+    hands: int
 
 
 SHARES = ("drawn", "back_after_shove", "on_table", "arrived")
 
 
-def summarise(trials: Sequence[Trial]) -> list[Summary]:
-    """Return a summary for each kind, in the order they first appear."""
+def summarise(trials: Sequence[Trial], starts: int) -> list[Summary]:
+    """Return a summary for each kind, in the order they first appear; each trial is of so many starts."""
     summaries = []
     for kind in dict.fromkeys(t.kind for t in trials):
         mine = [t for t in trials if t.kind == kind]
-        measures = {}
+        measures, intervals = {}, {}
         for name in Trial._fields[3:]:
-            values = [v for t in mine if np.isfinite(v := getattr(t, name))]
+            told = [t for t in mine if np.isfinite(getattr(t, name))]
+            values = [getattr(t, name) for t in told]
             middle = (np.mean if name in SHARES else np.median)(values) if values else np.nan
             measures[name] = (float(middle), float(np.percentile(values, 95)) if values else float("nan"))
-        summaries.append(Summary(kind, measures))
+            if name in SHARES and values:
+                asked = [starts * (t.drawn if name == "back_after_shove" else 1.0) for t in told]  # hands
+                found = estimate_share(np.multiply(values, asked), asked)
+                intervals[name] = found.low, found.high
+        summaries.append(Summary(kind, measures, intervals, len(mine), len(mine) * starts))
     return summaries
 
 
@@ -182,9 +199,14 @@ def study_table(summaries: Sequence[Summary]) -> str:
     names = list(summaries[0].measures)
     rows = []
     for summary in summaries:
-        cells = (
-            f"{100 * middle:.1f} %" if name in SHARES else f"{middle:.3g} ({high:.3g})"
-            for name, (middle, high) in summary.measures.items()
-        )
-        rows.append((summary.kind, *(cell.replace("nan", "–") for cell in cells)))
-    return markdown_table(("kind", *(name.replace("_", " ") for name in names)), rows)
+        cells = []
+        for name, (middle, high) in summary.measures.items():
+            if not np.isfinite(middle):
+                cells.append("–")
+            elif name in SHARES:
+                low, high = summary.intervals[name]
+                cells.append(f"{100 * middle:.1f} % [{100 * low:.1f}, {100 * high:.1f}]")
+            else:
+                cells.append(f"{middle:.3g} ({high:.3g})")
+        rows.append((summary.kind, summary.lessons, summary.hands, *cells))
+    return markdown_table(("kind", "lessons", "hands", *(name.replace("_", " ") for name in names)), rows)

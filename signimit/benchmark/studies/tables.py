@@ -55,7 +55,7 @@ def beaten_cells(rows: Sequence[MethodScore]) -> list[tuple[str, str, int, int]]
 
 
 def shares_table(rows: Sequence[MethodScore]) -> str:
-    """Return the share of sessions with every inference right, in per cent, as Markdown: a line for each cell."""
+    """Return the share of sessions with every inference right, per cent [95 %], as Markdown: a line for each cell."""
     methods = list(dict.fromkeys(row.method for row in rows))
     lines = []
     for cell in dict.fromkeys(row.cell for row in rows):
@@ -66,7 +66,8 @@ def shares_table(rows: Sequence[MethodScore]) -> str:
 
 def _share(row: MethodScore) -> str:
     text = f"{100 * row.all_right / row.sessions:.0f}"
-    return f"**{text}** [{100 * row.all_low:.0f}, {100 * row.all_high:.0f}]" if row.method == OURS else text
+    interval = f"[{100 * row.all_low:.0f}, {100 * row.all_high:.0f}]"
+    return f"**{text}** {interval}" if row.method == OURS else f"{text} {interval}"
 
 
 class Calibration(NamedTuple):

@@ -1,15 +1,18 @@
 """Results survive kills, and never mix with results of something else."""
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pytest
 
 from signimit.benchmark.entries import EntrantReference
+from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.results import (
     ResultFile,
+    Summary,
     installed_versions,
+    read_comparable_summaries,
     read_summaries,
     records_digest,
     run_missing,
@@ -162,6 +165,58 @@ def test_a_summary_of_another_version_is_refused(tmp_path: Path, text: str, foun
     (tmp_path / "new.json").write_text(text)
     with pytest.raises(FileFormatError, match=f"expected signimit benchmark results version 1, found {found}"):
         read_summaries(tmp_path)
+
+
+def rows_of(folder: Path, entry: EntrantReference, seeds: dict[str, Iterable[int]]) -> None:
+    """Run two entries, each on its seeds, and write their summaries."""
+    for name, numbers in seeds.items():
+        file = ResultFile(folder, entry._replace(name=name + ".py:Still"))
+        run(file, numbers)
+        write_summary(file)
+
+
+def change_row(folder: Path, name: str, change: Callable[[Summary], object]) -> None:
+    path = folder / f"{name}.py-Still.json"
+    summary = json.loads(path.read_text())
+    change(summary)
+    path.write_text(json.dumps(summary))
+
+
+def test_rows_of_one_judge_and_the_same_sessions_stand_in_one_table(tmp_path: Path, still: EntrantReference) -> None:
+    rows_of(tmp_path, still, {"a": range(3), "b": range(3)})
+    assert [row["judge"] for row in read_comparable_summaries(tmp_path)] == [judge_hash()] * 2
+    change_row(tmp_path, "b", lambda row: row.update(code="other", source="other"))  # shown, not compared
+    assert len(read_comparable_summaries(tmp_path)) == 2
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda row: row.pop("judge"), "found none, as in version 0.1.0."),
+        (lambda row: row.update(judge="abc"), "found judge abc."),
+        (lambda row: row["splits"]["few"].update(sha256="0123"), "found 0123."),
+        (lambda row: row["splits"]["few"].update(sessions_sha256="0", sessions=2), r"found others, seeds [[0, 2]]."),
+    ],
+)
+def test_a_row_of_another_judge_or_of_other_sessions_is_refused_with_the_remedy(
+    tmp_path: Path, still: EntrantReference, change: Callable[[Summary], object], found: str
+) -> None:
+    rows_of(tmp_path, still, {"a": range(3), "b": range(3)})
+    change_row(tmp_path, "b", change)
+    with pytest.raises(FileFormatError) as refused:
+        read_comparable_summaries(tmp_path)
+    assert str(refused.value).startswith(f"{tmp_path / 'b.py-Still.json'}: expected ")
+    assert f"then `benchmark run --entry b.py:Still --out {tmp_path}` runs it" in str(refused.value)
+    assert str(refused.value).endswith(found)
+
+
+def test_the_mean_over_splits_has_the_interval_of_people_who_are_the_same_in_all(file: ResultFile) -> None:
+    run(file, range(20))
+    every = write_summary(file)["all"]
+    assert every["mean"] == pytest.approx(39 / 40)  # in session 0 one command of two is not obeyed
+    assert (every["count"], every["low"] < every["mean"] < every["high"]) == (80, True)
+    list(run_missing(file, ["few"], [20], engine))
+    assert write_summary(file)["all"] is None
 
 
 def test_a_folder_without_results_says_what_makes_them(tmp_path: Path) -> None:

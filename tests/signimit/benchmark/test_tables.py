@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from signimit.benchmark.judge import CRITERION
 from signimit.benchmark.results import Summary
 from signimit.benchmark.tables import leaderboard, overview, ranked, split_table
 
@@ -31,7 +32,7 @@ SUMMARIES = [
     summary("partial", paper=1.0),
     summary("clone", paper=0.25, unseen_pair=0.05),
     summary("all-knowing", oracle=True, paper=1.0, unseen_pair=1.0),
-    summary("good", paper=0.9, unseen_pair=0.8),
+    summary("good", paper=0.9, unseen_pair=0.8) | {"all": {"mean": 0.85, "low": 0.8, "high": 0.9}},
 ]
 
 
@@ -43,18 +44,19 @@ def test_the_overview_has_a_column_for_each_split() -> None:
     assert overview(SUMMARIES).splitlines() == [
         "|  | all | paper | unseen-pair |",
         "| --- | --- | --- | --- |",
-        "| good | **85** | 90 | 80 |",
-        "| clone | **15** | 25 | 5 |",
-        "| partial | - | 100 | - |",
-        "| *all-knowing* | **100** | 100 | 100 |",
+        "| *commands, n* |  | 9 | 9 |",
+        "| good | **85 [80, 90]** | 90 [45, 95] | 80 [40, 90] |",
+        "| clone | **15** | 25 [12, 62] | 5 [2, 52] |",
+        "| partial | - | 100 [50, 100] | - |",
+        "| *all-knowing* | **100** | 100 [50, 100] | 100 [50, 100] |",
     ]
 
 
 def test_a_stage_that_is_not_told_is_a_dash() -> None:
     lines = split_table(SUMMARIES, "unseen-pair").splitlines()
-    assert lines[0] == "|  | sessions | focus | obeyed |"
-    assert lines[2] == "| good | 4 | 0.50 [0.25, 0.75] | 0.80 [0.40, 0.90] |"
-    assert lines[3] == "| clone | 4 | - | 0.05 [0.03, 0.53] |"
+    assert lines[0] == "|  | sessions | commands | focus | obeyed |"
+    assert lines[2] == "| good | 4 | 9 | 0.50 [0.25, 0.75] | 0.80 [0.40, 0.90] |"
+    assert lines[3] == "| clone | 4 | 9 | - | 0.05 [0.03, 0.53] |"
     assert not any("partial" in line for line in lines)
 
 
@@ -63,6 +65,7 @@ def test_the_page_explains_every_split_and_entry() -> None:
     assert "### unseen-pair\n\nChanged: only the pairs that were never shown are asked for.\n" in page
     assert "### many" not in page
     assert "| clone | the clone | 12 | 8 | 0.50 | 0.7 | `abc` |" in page
+    assert CRITERION in page
 
 
 def test_the_figure_has_a_panel_for_each_split(tmp_path: Path) -> None:
@@ -70,7 +73,7 @@ def test_the_figure_has_a_panel_for_each_split(tmp_path: Path) -> None:
     from signimit.plots.benchmark import draw_results
 
     figure = draw_results(SUMMARIES)
-    assert [panel.get_title(loc="left") for panel in figure.axes] == ["paper", "unseen-pair"]
+    assert [panel.get_title(loc="left") for panel in figure.axes] == ["paper, n = 9", "unseen-pair, n = 9"]
     paper = figure.axes[0]
     assert [label.get_text() for label in paper.get_yticklabels()] == ["good", "clone", "partial", "all-knowing"]
     lines = [np.asarray(line.get_xydata()) for line in paper.get_lines()]

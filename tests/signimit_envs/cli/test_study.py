@@ -4,7 +4,12 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+
+from signimit.benchmark.judge import CRITERION, judge_hash
+from signimit.teaching.languages import PAPER_LANGUAGE
+from signimit.teaching.people import synthetic_library
 
 for package in ("tyro", "tqdm", "matplotlib", "sklearn"):
     pytest.importorskip(package)
@@ -24,7 +29,7 @@ def folder(tmp_path: Path) -> Path:
 
 def test_tables_and_figures_come_out_of_the_records(run: Any, folder: Path) -> None:
     said = run("study", "cells", "--sessions", "1", "--only", CELL, "--out", folder)
-    assert "| synthetic 2x2x1 plain | 1 | **100** [21, 100] | 0 |" in said
+    assert "| synthetic 2x2x1 plain | 1 | **100** [21, 100] | 0 [0, 79] |" in said
     facts = json.loads((folder / "cells.json").read_text())
     assert facts["beaten"] == []
     assert facts["command"].startswith("python -m signimit study cells --sessions 1 --only 'synthetic ")
@@ -38,6 +43,20 @@ def test_reading_of_signs_is_written_beside_how_it_was_measured(run: Any, tmp_pa
     lines = (tmp_path / "signs.csv").read_text().splitlines()
     assert len(lines) == 1 + 8 * 3
     assert json.loads((tmp_path / "signs.json").read_text())["people"] == "synthetic"
+
+
+def test_real_people_take_part_from_files_as_they_are_shared(run: Any, tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    for name, labels in (("signs", PAPER_LANGUAGE.signs), ("movements", PAPER_LANGUAGE.movements)):
+        synthetic_library(labels, samples=10, rng=rng).save(tmp_path / f"{name}.npz")
+    files = "--signs", tmp_path / "signs.npz", "--movements", tmp_path / "movements.npz"
+    said = run("study", "real-people", *files, "--workers", 1, "--out", tmp_path / "out")
+    assert CRITERION in said
+    assert "| all | `joint` | 1 | 1 of 1: 100.0 % [20.7, 100.0] |" in said
+    facts = json.loads((tmp_path / "out" / "people.json").read_text())
+    assert (facts["signer"], facts["mover"], facts["judge"]) == (1, 1, judge_hash())
+    assert (tmp_path / "out" / "people.md").read_text().strip() in said
+    assert len((tmp_path / "out" / "people.csv").read_text().splitlines()) == 1 + 3 * 2
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
 def test_the_study_writes_table_trials_facts_and_a_picture_of_each_kind(run: Any, tmp_path: Path) -> None:
     options = ["--labels", "circle", "star", "--kinds", "path-following", "knn", "--sessions", 1, "--starts", 2]
     said = run("study", "policies", *options, "--out", tmp_path / "study")
-    assert "| path-following | 100.0 %" in said
+    assert "| path-following | 2 | 4 | 100.0 % [" in said
     trials = list(csv.DictReader((tmp_path / "study" / "trials.csv").read_text().splitlines()))
     assert [t["label"] for t in trials] == ["circle", "circle", "star", "star"]
     facts = json.loads((tmp_path / "study" / "study.json").read_text())

@@ -68,13 +68,13 @@ def test_a_small_study_has_a_row_for_each_kind_and_the_default_wins() -> None:
     plan = StudyPlan(labels=labels, sessions=1, starts=3)
     trials = list(run_study(library, plan, ("path-following", "knn")))
     assert [(t.kind, t.label) for t in trials] == [(k, label) for label in labels for k in ("path-following", "knn")]
-    ours, theirs = summarise(trials)
+    ours, theirs = summarise(trials, plan.starts)
     assert ours.measures["drawn"][0] == ours.measures["arrived"][0] == ours.measures["on_table"][0] == 1
     assert ours.measures["misfit"][0] < 0.1
     assert theirs.kind == "knn"
     table = study_table([ours, theirs])
     assert table.count("\n") == 3
-    assert "| path-following | 100.0 %" in table
+    assert "| path-following | 2 | 6 | 100.0 % [20.7, 100.0] |" in table
 
 
 def test_the_same_plan_gives_the_same_lessons() -> None:

@@ -48,7 +48,7 @@ def test_rows_are_counts_with_intervals_ours_first() -> None:
     assert ours[:7] == ("a", OURS, 10, 10, 10, 9, 9)
     assert other[:7] == ("a", "other", 10, 10, 0, 10, 0)
     assert (ours.all_low, ours.all_high) == (0.596, 0.982)
-    assert shares_table([ours, other]).splitlines()[-1] == "| a | 10 | **90** [60, 98] | 0 |"
+    assert shares_table([ours, other]).splitlines()[-1] == "| a | 10 | **90** [60, 98] | 0 [0, 28] |"
 
 
 def test_a_cell_in_which_a_baseline_is_better_is_named() -> None:
