@@ -30,7 +30,7 @@ COVERED = 0.9  # least share of a drawing that must be passed; `study judge`
 SIZES = (0.8, 1.3)  # least and largest size of a path that counts as a movement, in sizes of the drawing; `study judge`
 _SAMPLES = 64  # of a path and of a drawing
 _ONCE, _ROUNDS = 1.15, 1.35  # length of the path's end that is compared, in lengths of the drawing
-_JOINING = 0.3  # of a round: the way by which a hand joins what goes round is no part of the drawing
+_STRAIGHT = 1 - np.cos(np.deg2rad(30.0))  # until a hand turns by more, it may still be on its way to what goes round
 _FITTED_SIZES = (0.85, 1.18)  # within which a drawing is scaled before it is compared
 _NEAR = 0.4  # half sizes within which a sample passes its point of the drawing
 _DIRECTION_WEIGHT = 0.5  # half sizes that 1 - cos of an angle between directions counts as
@@ -307,6 +307,7 @@ class _Alignment:
         count, samples = hands.shape[:2]
         tangents = np.gradient(hands, axis=1)
         tangents /= np.linalg.norm(tangents, axis=2, keepdims=True) + 1e-12
+        self._tangents = tangents
         squares = (hands**2).sum(axis=2)[:, :, None] + (drawings**2).sum(axis=2)[:, None]
         gaps = np.sqrt(np.maximum(squares - 2 * hands @ drawings.transpose(0, 2, 1), 0.0))
         turns = 1 - tangents @ directions.transpose(0, 2, 1)
@@ -366,8 +367,8 @@ class _Alignment:
     def coverage(self) -> Array:
         """Share of the drawn points between samples near them, without the way of joining a round, shape (C,)."""
         count, samples = self._points.shape
-        first = self._points[np.arange(count), self.begun]
-        joining = self._rounds[:, None] & (self._points - first[:, None] < _JOINING * samples)
+        turned = self._used & (1 - (self._tangents * self._tangents[np.arange(count), self.begun, None]).sum(2) > _STRAIGHT)
+        joining = self._rounds[:, None] & ~np.logical_or.accumulate(turned, axis=1)
         near = self._used & (self._gaps < _NEAR) & ~joining
         passed = np.zeros((count, samples), dtype=np.bool_)
         between = near[:, 1:] & near[:, :-1]
