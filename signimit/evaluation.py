@@ -25,15 +25,17 @@ from signimit.validation import finite_array, item_list, moving_points
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-TOLERANCE = 0.2  # misfit up to which a path counts as a movement, in half sizes; `study judge`
-COVERED = 0.9  # least share of a drawing that must be passed; `study judge`
+TOLERANCE = 0.25  # misfit up to which a path counts as a movement, in half sizes; `study judge`
+COVERED = 0.94  # least share of a drawing that must be passed; `study judge`
 SIZES = (0.8, 1.3)  # least and largest size of a path that counts as a movement, in sizes of the drawing; `study judge`
 _SAMPLES = 64  # of a path and of a drawing
 _ONCE, _ROUNDS = 1.15, 1.35  # length of the path's end that is compared, in lengths of the drawing
 _STRAIGHT = 1 - np.cos(np.deg2rad(30.0))  # until a hand turns by more, it may still be on its way to what goes round
+_BEGINNING = 0.06  # of a drawing: where the hand comes from elsewhere, it need not pass so much
 _FITTED_SIZES = (0.85, 1.18)  # within which a drawing is scaled before it is compared
+DIRECTION_WEIGHT = 2.0  # half sizes that a mean of 1 - cos of the angle between directions counts as
 _NEAR = 0.4  # half sizes within which a sample passes its point of the drawing
-_DIRECTION_WEIGHT = 0.5  # half sizes that 1 - cos of an angle between directions counts as
+_TURNING = 0.5  # half sizes that 1 - cos of an angle between directions costs in an alignment
 _STAYING, _SKIPPING, _LEAVING_OUT = 0.05, 0.02, 0.2  # half sizes: a sample at the same point, a point, an early sample
 _MOST_STEPS = 3  # points that the next sample may be ahead
 _SHORTEST = 0.5  # of a drawing's length: who went less has performed nothing
@@ -311,7 +313,7 @@ class _Alignment:
         squares = (hands**2).sum(axis=2)[:, :, None] + (drawings**2).sum(axis=2)[:, None]
         gaps = np.sqrt(np.maximum(squares - 2 * hands @ drawings.transpose(0, 2, 1), 0.0))
         turns = 1 - tangents @ directions.transpose(0, 2, 1)
-        costs = gaps + _DIRECTION_WEIGHT * turns
+        costs = gaps + _TURNING * turns
         steps = self._best_steps(costs)
         each, points = np.arange(count), np.empty((count, samples), dtype=np.intp)
         points[:, -1] = self._last
@@ -352,7 +354,7 @@ class _Alignment:
     def misfit(self) -> Array:
         """Half of the mean gaps there and back, plus half of the mean of 1 - cos between directions, shape (C,)."""
         there = (self._gaps * self._weights).sum(axis=1)
-        return np.asarray((there + self._gap_back) / 2 + _DIRECTION_WEIGHT * (self._turns * self._weights).sum(axis=1))
+        return np.asarray((there + self._gap_back) / 2 + DIRECTION_WEIGHT * (self._turns * self._weights).sum(axis=1))
 
     def size(self) -> Array:
         """Size of the path relative to the drawing: regression of samples on their points, shape (C,)."""
@@ -378,7 +380,8 @@ class _Alignment:
             here[:, 1:] |= between & (points[:, 1:] > self._points[:, :-1])
             pair, sample = np.nonzero(here)
             passed[pair, points[pair, sample] % samples] = True
-        return np.asarray((passed & self._drawn).sum(axis=1) / self._drawn.sum(axis=1))
+        counted = self._drawn & (self._rounds[:, None] | (np.arange(samples) >= _BEGINNING * samples))
+        return np.asarray((passed & counted).sum(axis=1) / counted.sum(axis=1))
 
 
 def count_turns(path: ArrayLike, centre: ArrayLike) -> float:
