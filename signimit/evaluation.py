@@ -190,7 +190,6 @@ class PathJudge:
         repeated = [None] * len(listed) if repeat is None else list(repeat)
         if len(repeated) != len(listed):
             raise InvalidInputError("repeat", f"one for each of {len(listed)} movements", f"{len(repeated)}")
-        self._repeat = repeated
         ways = {None: (False, True), False: (False,), True: (True,)}
         made = [
             (m, make_template(drawing, rounds))
@@ -221,27 +220,27 @@ class PathJudge:
         found = self.compare(path, places, chosen)
         if not len(found.misfit):
             return NOTHING
-        best = int(found.misfit.argmin())
-        movement, place = int(self.movement[found.template[best]]), int(found.place[best])
-        same = (self.movement[found.template] == movement) & (found.place == place)
-        counts = same & self.counts(found)
-        if counts.any():
-            best = int(np.where(counts, found.misfit, np.inf).argmin())
-        else:
-            best = int(np.where(same, found.misfit + 1 - found.coverage, np.inf).argmin())
+        movement, place, same = self.best(found)
+        counts = (
+            same & self.fits(found) & (found.misfit <= TOLERANCE) & (found.coverage >= COVERED)
+        )  # of those that count the nearest is reported, else the one that comes nearest to counting
+        key = np.where(counts, found.misfit, np.inf) if counts.any() else found.misfit + 1 - found.coverage
+        which = int(np.where(same, key, np.inf).argmin())
         named = (movement, place) if counts.any() else (-1, -1)
         turns = count_turns(path, places[place])
-        return Performance(*named, float(found.misfit[best]), float(found.coverage[best]), turns)
+        return Performance(*named, float(found.misfit[which]), float(found.coverage[which]), turns)
 
-    def counts(self, found: Comparison) -> Mask:
-        """Say which comparisons show the movement: misfit, coverage and size are good enough, shape (C,)."""
-        return np.asarray(
-            (found.misfit <= TOLERANCE)
-            & (found.coverage >= COVERED)
-            & (found.size >= SIZES[0])
-            & (found.size <= SIZES[1])
-            & (found.direct | ~self._once[found.template])
-        )
+    def best(self, found: Comparison) -> tuple[int, int, Mask]:
+        """Return the movement and the place with the least misfit, and which comparisons are of them, shape (C,)."""
+        least = int(found.misfit.argmin())
+        movement, place = self.movement[found.template[least]], found.place[least]
+        same = (self.movement[found.template] == movement) & (found.place == place)
+        return int(movement), int(place), np.asarray(same)
+
+    def fits(self, found: Comparison) -> Mask:
+        """Say where the size is right and, for what is made once, the way there about straight, shape (C,)."""
+        sized = (found.size >= SIZES[0]) & (found.size <= SIZES[1])
+        return np.asarray(sized & (found.direct | ~self._once[found.template]))
 
     def compare(self, path: Array, places: Array, chosen: Mask | None = None) -> Comparison:
         """Compare a path, shape (T, 2), m, with templates about places, shape (O, 2), m, table frame.
