@@ -368,7 +368,9 @@ class _Alignment:
     def coverage(self) -> Array:
         """Share of the drawn points between samples near them, without the way of joining a round, shape (C,)."""
         count, samples = self._points.shape
-        turned = self._used & (1 - (self._tangents * self._tangents[np.arange(count), self.begun, None]).sum(2) > _STRAIGHT)
+        turned = self._used & (
+            1 - (self._tangents * self._tangents[np.arange(count), self.begun, None]).sum(2) > _STRAIGHT
+        )
         joining = self._rounds[:, None] & ~np.logical_or.accumulate(turned, axis=1)
         near = self._used & (self._gaps < _NEAR) & ~joining
         passed = np.zeros((count, samples), dtype=np.bool_)

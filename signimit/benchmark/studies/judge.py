@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.benchmark.statistics import Share
+from signimit.benchmark.tables import markdown_table
 from signimit.evaluation import COVERED, TOLERANCE, PathJudge
 from signimit.exceptions import InvalidInputError
-from signimit.strokes import StrokeLibrary
+from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.composition import HALF_SIZE, compose_path
 from signimit.teaching.people import MOVEMENT_LABELS, synthetic_library
 from signimit.teaching.scenes import drawn_path, sample_hand, sample_scene
@@ -27,10 +28,11 @@ Array = NDArray[np.float64]
 
 MOVEMENTS = 3  # of a session
 SHOWN = 4  # drawings of each movement that the judge has
+STRANGERS = "strangers"  # whose drawings of one label are not redrawings of each other
 OWN = "own"  # the kind of path that must be accepted; all names that begin with it
 WANTED_SHARE = 0.99  # of own redrawings that thresholds must accept
-TOLERANCES = tuple(np.round(np.arange(0.15, 0.36, 0.01), 2).tolist())
-COVERAGES = tuple(np.round(np.arange(0.86, 0.985, 0.01), 2).tolist())
+TOLERANCES = np.round(np.arange(0.15, 0.36, 0.01), 2)  # half sizes, that are tried
+COVERAGES = np.round(np.arange(0.86, 0.985, 0.01), 2)  # shares, that are tried
 CIRCLES, RECTANGLES = ("circle", "circle, other way"), ("rectangle", "square")
 _ASIDE = 0.05  # m
 _BUILT_IN_SAMPLES = 12  # drawings of each movement by a built-in person
@@ -80,6 +82,11 @@ class Trial(NamedTuple):
     coverage: Array
     fits: NDArray[np.bool_]
 
+    @property
+    def own(self) -> bool:
+        """Whether it is a redrawing, which must be accepted."""
+        return self.kind.startswith(OWN)
+
     def accepted(self, tolerance: float = TOLERANCE, covered: float = COVERED) -> bool:
         """Say whether the path is accepted with these thresholds."""
         return self.right and bool((self.fits & (self.misfit <= tolerance) & (self.coverage >= covered)).any())
@@ -99,6 +106,16 @@ class Acceptance(NamedTuple):
     kind: str
     share: Share
     left_out: Share
+
+
+def people_of(library: StrokeLibrary, movements: Sequence[str]) -> dict[str, StrokeLibrary]:
+    """Return each writer's drawings, or all as one group of strangers if nobody drew enough of them."""
+    alone = {writer: library.select(writer=writer) for writer in sorted(set(library.writers))}
+
+    def often(one: StrokeLibrary) -> int:
+        return sum(one.labels.count(label) >= SHOWN + 2 for label in movements)
+
+    return {w: one for w, one in alone.items() if often(one) >= MOVEMENTS} or {STRANGERS: library}
 
 
 def built_in_people(count: int, seed: int) -> Iterator[StrokeLibrary]:
@@ -130,9 +147,9 @@ def run_judge(
         InvalidInputError: If there are not enough movements, or drawings of one.
     """
     drawings = {label: library.select(label=label).strokes for label in dict.fromkeys(library.labels)}
-    known = [label for label in movements if label in drawings]
     fewest = SHOWN + 2 * redrawn
-    if len(known) < MOVEMENTS or min(len(drawings[label]) for label in known) < fewest:
+    known = [label for label in movements if len(drawings.get(label, ())) >= fewest]
+    if len(known) < MOVEMENTS:
         raise InvalidInputError(group, f"{MOVEMENTS} movements drawn {fewest} times each", f"{known}")
     for _ in range(sessions):
         chosen = [known[i] for i in rng.permutation(len(known))[:MOVEMENTS]]
@@ -140,7 +157,7 @@ def run_judge(
 
 
 def _run_session(
-    drawings: Mapping[str, Sequence], group: str, chosen: Sequence[str], rng: np.random.Generator, redrawn: bool
+    drawings: Mapping[str, Sequence[Stroke]], group: str, chosen: Sequence[str], rng: np.random.Generator, redrawn: bool
 ) -> Iterator[Trial]:
     shuffled = {label: [strokes[i] for i in rng.permutation(len(strokes))] for label, strokes in drawings.items()}
 
@@ -191,22 +208,56 @@ def _run_session(
             yield from look(kind, f"{label} for {movement}", [draw(label, SHOWN)], m)
 
 
-def choose_thresholds(trials: Sequence[Trial]) -> tuple[float, float]:
-    """Choose tolerance and coverage: of those that accept 99 % of own redrawings, the pair that refuses most else.
+class Counts(NamedTuple):
+    """How many paths are accepted with each pair of `TOLERANCES` and `COVERAGES`.
+
+    Attributes:
+        own: Own redrawings, shape (tolerances, coverages).
+        redrawings: How many there are in all.
+        others: Paths that should be refused, shape (tolerances, coverages).
+    """
+
+    own: NDArray[np.int64]
+    redrawings: int
+    others: NDArray[np.int64]
+
+
+def count_accepted(trials: Sequence[Trial]) -> Counts:
+    """Count accepted paths with each pair of thresholds."""
+    own, others = (np.zeros((len(TOLERANCES), len(COVERAGES)), dtype=np.int64) for _ in range(2))
+    for trial in trials:
+        if trial.right:
+            good = trial.misfit[trial.fits, None] <= TOLERANCES, trial.coverage[trial.fits, None] >= COVERAGES
+            accepted = (good[0][:, :, None] & good[1][:, None]).any(axis=0)
+            (own if trial.own else others)[accepted] += 1
+    return Counts(own, sum(trial.own for trial in trials), others)
+
+
+def choose_thresholds(counts: Sequence[Counts]) -> tuple[float, float]:
+    """Choose tolerance and coverage: of the pairs that accept 99 % of own redrawings, the one that refuses most else.
 
     If none does, the pair that accepts most own redrawings. Of equals the one that is easiest on redrawings.
     """
-    groups = [[t for t in trials if t.kind.startswith(OWN) is own and t.right] for own in (True, False)]
-    total = sum(t.kind.startswith(OWN) for t in trials)
+    own = sum(c.own for c in counts) / sum(c.redrawings for c in counts)
+    others = sum(c.others for c in counts)
+    pairs = product(enumerate(TOLERANCES), enumerate(COVERAGES))
+    best = max(
+        pairs, key=lambda p: (min(own[p[0][0], p[1][0]], WANTED_SHARE), -others[p[0][0], p[1][0]], p[0][1], -p[1][1])
+    )
+    return float(best[0][1]), float(best[1][1])
 
-    def rank(pair: tuple[float, float]) -> tuple[float, int, float, float]:
-        own, other = (sum(t.accepted(*pair) for t in group) for group in groups)
-        return min(own / total, WANTED_SHARE), -other, pair[0], -pair[1]
 
-    return max(product(TOLERANCES, COVERAGES), key=rank)
+def leave_groups_out(trials: Sequence[Trial]) -> dict[str, tuple[float, float]]:
+    """Choose thresholds for each group on all other groups."""
+    counts = {group: count_accepted([t for t in trials if t.group == group]) for group in {t.group for t in trials}}
+    if len(counts) < 2:
+        raise InvalidInputError("judge", "at least 2 people or groups of them", str(len(counts)))
+    return {group: choose_thresholds([c for other, c in counts.items() if other != group]) for group in counts}
 
 
-def tabulate_acceptance(people: str, trials: Sequence[Trial], chosen: Mapping[str, tuple[float, float]]) -> list[Acceptance]:
+def tabulate_acceptance(
+    people: str, trials: Sequence[Trial], chosen: Mapping[str, tuple[float, float]]
+) -> list[Acceptance]:
     """Count what is accepted, a row for each kind.
 
     Args:
@@ -214,13 +265,20 @@ def tabulate_acceptance(people: str, trials: Sequence[Trial], chosen: Mapping[st
         trials: Their trials.
         chosen: For each group the thresholds that were chosen on others.
     """
-    kinds = dict.fromkeys(t.kind for t in trials)
-    return [
-        Acceptance(
-            people,
-            kind,
-            Share.of(t.accepted() for t in trials if t.kind == kind),
-            Share.of(t.accepted(*chosen[t.group]) for t in trials if t.kind == kind),
-        )
-        for kind in kinds
-    ]
+    rows = []
+    for kind in dict.fromkeys(t.kind for t in trials):
+        mine = [t for t in trials if t.kind == kind]
+        left_out = Share.of(t.accepted(*chosen[t.group]) for t in mine)
+        rows.append(Acceptance(people, kind, Share.of(t.accepted() for t in mine), left_out))
+    return rows
+
+
+def acceptance_table(rows: Sequence[Acceptance]) -> str:
+    """Return the rows as Markdown: accepted with the package's thresholds, and with those chosen on other people."""
+    cells = [
+        (row.people, row.kind, share.total, f"{share.count / share.total:.1%}", "{:.1%} to {:.1%}".format(*share.interval),
+         f"{row.left_out.count / share.total:.1%}")
+        for row in rows
+        for share in (row.share,)
+    ]  # fmt: skip
+    return markdown_table(("people", "what the hand draws", "n", "accepted", "95 % interval", "left out"), cells)

@@ -36,7 +36,7 @@ def test_what_is_asked_for_is_noticed_once_and_what_is_not_never(movement: int, 
         assert judge.done is (request == (movement, focus))
         if judge.done:
             at = noticed.index(True)
-            assert judge.performance == signimit.performed(path[: at + 2], OBJECTS, TEMPLATES)
+            assert judge.success_performance == signimit.performed(path[: at + 2], OBJECTS, TEMPLATES)
 
 
 def test_a_resting_hand_and_a_passing_one_fulfil_nothing() -> None:
@@ -84,7 +84,7 @@ def test_an_obeyed_request_is_rewarded_once_and_does_not_end_the_episode() -> No
         assert not terminated
         assert info["is_success"] is (sum(rewards) > 0)
     assert sum(rewards) == 1.0
-    performance = info["performance"]
+    performance = info["success_performance"]
     assert (performance.movement, performance.focus) == (2, 0)
     assert performance.misfit <= 0.35
     env.close()
