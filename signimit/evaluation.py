@@ -25,7 +25,7 @@ from signimit.validation import finite_array, item_list, moving_points
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-TOLERANCE = 0.25  # misfit up to which a path counts as a movement, in half sizes; `study judge`
+TOLERANCE = 0.2  # misfit up to which a path counts as a movement, in half sizes; `study judge`
 COVERED = 0.94  # least share of a drawing that must be passed; `study judge`
 SIZES = (0.8, 1.3)  # least and largest size of a path that counts as a movement, in sizes of the drawing; `study judge`
 _SAMPLES = 64  # of a path and of a drawing
@@ -36,9 +36,12 @@ _FITTED_SIZES = (0.85, 1.18)  # within which a drawing is scaled before it is co
 DIRECTION_WEIGHT = 2.0  # half sizes that a mean of 1 - cos of the angle between directions counts as
 _NEAR = 0.4  # half sizes within which a sample passes its point of the drawing
 _TURNING = 0.5  # half sizes that 1 - cos of an angle between directions costs in an alignment
-_STAYING, _SKIPPING, _LEAVING_OUT = 0.05, 0.02, 0.2  # half sizes: a sample at the same point, a point, an early sample
+_UNEVEN, _LEAVING_OUT = (
+    0.02,
+    0.2,
+)  # half sizes: of a sample at the same point, or of a point skipped; of an early sample
 _MOST_STEPS = 3  # points that the next sample may be ahead
-_SHORTEST = 0.5  # of a drawing's length: who went less has performed nothing
+_SHORTEST = 0.3  # of a drawing's length: who went less has performed nothing
 _ASIDE = 0.8  # half sizes between the means of path and drawing from which they are not compared
 _DETOUR = 0.5  # lengths of the drawing by which the way to what is made once may be longer than straight
 _OVERLAP, _OVERLAP_GAP = 0.25, 0.5  # share of the way, half sizes: where a drawing may run past its own beginning
@@ -51,7 +54,7 @@ class Performance(NamedTuple):
         movement: Number of the movement, -1 for none of them.
         focus: Number of the object, -1 for none.
         misfit: Misfit of the best candidate, in half sizes of the shown drawing: half of the mean gaps there and
-            back, plus half of the mean of 1 - cos of the angle between directions. Infinite if the hand rested.
+            back, plus twice the mean of 1 - cos of the angle between directions. Infinite if the hand rested.
         coverage: Share of the shown drawing, in [0, 1], that the path passed in order.
         turns: Signed revolutions of the whole path about the candidate object, counter-clockwise positive.
     """
@@ -134,7 +137,7 @@ def performed(
     """Say which movement a path performed about which object (paper, section III).
 
     The movement and object with the least misfit count if one of the movement's drawings has a misfit of at most 0.2
-    half sizes, at least 90 % of it was passed in order, and the path has its size (0.8 to 1.3). A hand that draws from
+    half sizes, at least 94 % of it was passed in order, and the path has its size (0.8 to 1.3). A hand that draws from
     a drawing's beginning to its end has passed it all; a hand that joins elsewhere has once it has gone on for 0.3 of a
     round beyond. Shift, sampling and speed do not matter, nor rests.
 
@@ -339,9 +342,9 @@ class _Alignment:
             padded[:, _MOST_STEPS:] = total
             padded[:, :_MOST_STEPS] = total[:, -_MOST_STEPS:]
             padded[open_ends, :_MOST_STEPS] = np.inf
-            best, taken = total + _STAYING, steps[i]
+            best, taken = total + _UNEVEN, steps[i]
             for step in range(1, _MOST_STEPS + 1):
-                other = padded[:, _MOST_STEPS - step : -step] + _SKIPPING * (step - 1)
+                other = padded[:, _MOST_STEPS - step : -step] + _UNEVEN * (step - 1)
                 better = other < best
                 np.copyto(best, other, where=better)
                 taken[better] = step
@@ -351,7 +354,7 @@ class _Alignment:
         return steps
 
     def misfit(self) -> Array:
-        """Half of the mean gaps there and back, plus half of the mean of 1 - cos between directions, shape (C,)."""
+        """Half of the mean gaps there and back, plus twice the mean of 1 - cos between directions, shape (C,)."""
         there = (self._gaps * self._weights).sum(axis=1)
         return np.asarray((there + self._gap_back) / 2 + DIRECTION_WEIGHT * (self._turns * self._weights).sum(axis=1))
 

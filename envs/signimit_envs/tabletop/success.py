@@ -119,5 +119,7 @@ class SuccessDetector:
         asked = self._judge.judge(self._path.latest, self._objects[focus : focus + 1], [movement])
         if asked.movement < 0:
             return asked
+        if self.done:
+            return asked._replace(focus=focus)
         # All movements about all objects: is the request what was performed best?
         return self._judge.judge(self._path.latest, self._objects)

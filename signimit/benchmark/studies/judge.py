@@ -1,8 +1,9 @@
 """What the judge accepts: people's own redrawings, and everything that must be refused, on people who were left out.
 
 In a session one person draws three movements, a few times each; these drawings are the judge's. Then the hand draws
-about one of three objects: the same movements anew, pieces of them, the wrong way, elsewhere, in another size, and other
-shapes. `choose_thresholds` chooses the judge's constants on some people; `leave_groups_out` tells how they do on others.
+about one of three objects: the same movements anew, pieces of them, the wrong way, elsewhere, in another size, and
+other shapes. `choose_thresholds` chooses the judge's constants on some people, `leave_groups_out` for each on the
+others.
 """
 
 from __future__ import annotations
@@ -275,10 +276,9 @@ def tabulate_acceptance(
 
 def acceptance_table(rows: Sequence[Acceptance]) -> str:
     """Return the rows as Markdown: accepted with the package's thresholds, and with those chosen on other people."""
-    cells = [
-        (row.people, row.kind, share.total, f"{share.count / share.total:.1%}", "{:.1%} to {:.1%}".format(*share.interval),
-         f"{row.left_out.count / share.total:.1%}")
-        for row in rows
-        for share in (row.share,)
-    ]  # fmt: skip
+    cells = []
+    for people, kind, share, left_out in rows:
+        low, high = share.interval
+        shares = f"{share.count / share.total:.1%}", f"{low:.1%} to {high:.1%}", f"{left_out.count / share.total:.1%}"
+        cells.append((people, kind, share.total, *shares))
     return markdown_table(("people", "what the hand draws", "n", "accepted", "95 % interval", "left out"), cells)
