@@ -185,7 +185,7 @@ SPOILT: dict[str, Any] = {
     "half and then at rest": lambda z: np.concatenate([z[: len(z) // 2], np.tile(z[len(z) // 2], (300, 1))]),
     "half size": lambda z: 0.5 * z,
     "double size": lambda z: 2.0 * z,
-    "5 cm right": lambda z: z + [0.05, 0.0],
+    "5 cm left": lambda z: z - [0.05, 0.0],
     "5 cm down": lambda z: z - [0.0, 0.05],
 }
 

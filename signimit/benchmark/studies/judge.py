@@ -9,7 +9,6 @@ others.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import product
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -239,13 +238,14 @@ def choose_thresholds(counts: Sequence[Counts]) -> tuple[float, float]:
 
     If none does, the pair that accepts most own redrawings. Of equals the one that is easiest on redrawings.
     """
-    own = sum(c.own for c in counts) / sum(c.redrawings for c in counts)
-    others = sum(c.others for c in counts)
-    pairs = product(enumerate(TOLERANCES), enumerate(COVERAGES))
-    best = max(
-        pairs, key=lambda p: (min(own[p[0][0], p[1][0]], WANTED_SHARE), -others[p[0][0], p[1][0]], p[0][1], -p[1][1])
-    )
-    return float(best[0][1]), float(best[1][1])
+    own = np.sum([c.own for c in counts], axis=0) / sum(c.redrawings for c in counts)
+    others = np.sum([c.others for c in counts], axis=0)
+
+    def rank(pair: tuple[int, int]) -> tuple[float, ...]:
+        return min(own[pair], WANTED_SHARE), -others[pair], pair[0], -pair[1]
+
+    tolerance, covered = max(np.ndindex(len(TOLERANCES), len(COVERAGES)), key=rank)
+    return float(TOLERANCES[tolerance]), float(COVERAGES[covered])
 
 
 def leave_groups_out(trials: Sequence[Trial]) -> dict[str, tuple[float, float]]:
