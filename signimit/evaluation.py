@@ -25,7 +25,7 @@ from signimit.validation import finite_array, item_list, moving_points
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-TOLERANCE = 0.2  # misfit up to which a path counts as a movement, in half sizes; `study judge`
+TOLERANCE = 0.22  # misfit up to which a path counts as a movement, in half sizes; `study judge`
 COVERED = 0.94  # least share of a drawing that must be passed; `study judge`
 SIZES = (0.8, 1.3)  # least and largest size of a path that counts as a movement, in sizes of the drawing; `study judge`
 _SAMPLES = 64  # of a path and of a drawing
@@ -136,7 +136,7 @@ def performed(
 ) -> Performance:
     """Say which movement a path performed about which object (paper, section III).
 
-    The movement and object with the least misfit count if one of the movement's drawings has a misfit of at most 0.2
+    The movement and object with the least misfit count if one of the movement's drawings has a misfit of at most 0.22
     half sizes, at least 94 % of it was passed in order, and the path has its size (0.8 to 1.3). A hand that draws from
     a drawing's beginning to its end has passed it all; a hand that joins elsewhere has once it has gone on for 0.3 of a
     round beyond. Shift, sampling and speed do not matter, nor rests.

@@ -238,7 +238,7 @@ def choose_thresholds(counts: Sequence[Counts]) -> tuple[float, float]:
 
     If none does, the pair that accepts most own redrawings. Of equals the one that is easiest on redrawings.
     """
-    own = np.sum([c.own for c in counts], axis=0) / sum(c.redrawings for c in counts)
+    own = np.mean([c.own / max(1, c.redrawings) for c in counts], axis=0)  # every person counts the same
     others = np.sum([c.others for c in counts], axis=0)
 
     def rank(pair: tuple[int, int]) -> tuple[float, ...]:

@@ -128,7 +128,7 @@ def test_a_clockwise_triangle_is_no_circle_and_no_triangle(focus: int) -> None:
 
 def test_success_comes_after_a_whole_round_and_not_before_and_its_performance_is_kept() -> None:
     shown = TabletopHandEnv().people.templates[CIRCLE][0]
-    infos = drive(np.concatenate([shown, shown + [0.3, 0.0]]), CIRCLE, 0)
+    infos = drive(np.concatenate([shown, shown - [0.3, 0.0]]), CIRCLE, 0)
     fulfilled = [info["is_success"] for info in infos]
     at = fulfilled.index(True)
     way = np.cumsum(np.hypot(*np.diff(shown, axis=0).T))
