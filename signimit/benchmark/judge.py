@@ -17,15 +17,12 @@ from signimit import evaluation, paths
 from signimit.benchmark import scoring
 
 _ENTRANCES = ("judge_inference", "count_signs_read", "score_path")  # of `signimit.benchmark.scoring`
-_COVERED: float | None = getattr(evaluation, "COVERED", None)
-_SIZES: tuple[float, float] | None = getattr(evaluation, "SIZES", None)
 
 CRITERION = (
     "A command is obeyed if `signimit.performed` finds the movement that was asked for about the object that was asked "
     f"for: a misfit of at most {evaluation.TOLERANCE:g} half sizes to a shown drawing"
-    + (f", {100 * _COVERED:g} % or more of which was passed in order" if _COVERED else "")
-    + (f", at {_SIZES[0]:g} to {_SIZES[1]:g} times its size" if _SIZES else "")
-    + "."
+    f", {100 * evaluation.COVERED:g} % or more of which was passed in order, "
+    f"at {evaluation.SIZES[0]:g} to {evaluation.SIZES[1]:g} times its size."
 )
 """What "obeyed" means, for every table that says it."""
 

@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.statistics import Share
-from signimit.evaluation import TOLERANCE, movement_error, performed, prepare_templates, settled_part
+from signimit.evaluation import PathJudge, performed
 from signimit.inference import WordOrder
 from signimit.learners.base import Reading
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Request
 from signimit.teaching.sessions import Command
 
-WORST = 1.0  # half sizes; a larger misfit, or a hand that rested, counts as this much
+WORST = 3.0  # half sizes; a larger misfit, or a hand that rested, counts as this much
 
 
 class Inferences(Protocol):
@@ -133,11 +133,9 @@ def score_path(
         templates: Drawings of each movement, each (T, 2), m, object's frame.
     """
     movement, focus = command.request
-    tail, misfit = settled_part(path), WORST
-    if tail is not None:
-        (drawings,) = prepare_templates(templates[movement : movement + 1])
-        misfit = min(WORST, movement_error(tail - command.objects[focus], drawings))
-    if misfit > TOLERANCE:  # then no comparison with other movements and objects can make it right
+    asked = PathJudge(templates[movement : movement + 1]).judge(path, command.objects[focus : focus + 1])
+    misfit = min(WORST, asked.misfit)
+    if asked.movement < 0:  # then no comparison with other movements and objects can make it right
         return CommandScore(False, misfit)
     performance = performed(path, command.objects, templates)
     return CommandScore((performance.movement, performance.focus) == command.request, misfit)

@@ -72,8 +72,13 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
 
     Reward:
         ``reward="sparse"``: 1 at the step where the request is seen to be fulfilled for the first time, else 0. The
-        path of up to the last 12 s is looked at every half second, first after 1.5 s: a look costs ten steps, so the
-        reward may come up to half a second after the deed. `signimit.performed` is the judge.
+        request is fulfilled when `signimit.performed` takes the path of up to the last 12 s for the requested movement
+        about the requested object, rather than for any other: the end of the path, as long as one drawing of it, must
+        follow a drawing of the mover's from its beginning to its end, in order, with a misfit of at most 0.22 half
+        sizes, past at least 94 % of it, in 0.8 to 1.3 times its size. A hand that joins the drawing elsewhere has to
+        draw a whole round after its first turn. So half a turn is no success however long the hand rests after it, nor
+        is another shape, nor the right one the wrong way round. The path is looked at every half second, first after
+        1.5 s: a look costs many steps, so the reward may come up to half a second after the deed.
 
         ``reward="dense"``: that plus γ Φ(s') - Φ(s), with γ the ``discount``; it leaves optimal policies as they are
         (Ng, Harada and Russell, ICML 1999). The potential Φ, in [0, 1], is 3/4 of how much of the requested drawing
@@ -90,7 +95,9 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
 
     Info:
         ``request`` (movement, focus), ``is_success`` (in this episode so far), ``performance`` (a
-        `signimit.Performance`, of the moment of success; movement -1 before), ``ik_residual`` (m, what of the last
+        `signimit.Performance`, of the latest look; movement -1 for none, misfit infinite while the hand has not been
+        all about the requested drawing), ``success_performance`` (that of the look that saw the request fulfilled;
+        movement -1 before), ``ik_residual`` (m, what of the last
         displacement of the hand was beyond the arm; 0 with joint control), ``physics_error`` (what went wrong; empty if
         nothing).
 
@@ -238,6 +245,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
             "request": self._request,
             "is_success": self._success.done,
             "performance": self._success.performance,
+            "success_performance": self._success.success_performance,
             "ik_residual": residual,
             "physics_error": error,
         }

@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 from signimit import InvalidInputError, UnknownNameError
 from signimit.evaluation import Template
 
-_PASS_RADIUS = 0.25  # half sizes of the drawing; a point this near to the hand is passed, as in `signimit.performed`
+_PASS_RADIUS = 0.25  # half sizes of the drawing; a point this near to the hand is passed
 _MIN_COSINE = 0.5  # between the directions of hand and drawing, for the hand to go the drawing's way
 _COVERAGE_SHARE = 0.75  # of the potential; the rest is closeness
-_STRIDE = 2  # every second point of the drawing is enough
 _MIN_MOTION = 1e-5  # m a control step; a slower hand has no direction
 _COMPLEX = np.array([1.0, 1.0j])  # (x, y) @ _COMPLEX = x + iy
 
@@ -39,8 +38,8 @@ class Potential:
         Returns:
             Φ of the start.
         """
-        self._points = (drawing.points[::_STRIDE] + place) @ _COMPLEX
-        self._headings = drawing.directions[::_STRIDE] @ _COMPLEX.conj()  # conjugate: multiplied, it gives the angle
+        self._points = (drawing.points + place) @ _COMPLEX
+        self._headings = drawing.directions @ _COMPLEX.conj()  # conjugate: multiplied, it gives the angle
         self._half_size = drawing.half_size
         self._passed = np.zeros(len(self._points), dtype=np.bool_)
         self._hand = complex(*hand.tolist())

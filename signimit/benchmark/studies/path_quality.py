@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from signimit.evaluation import TOLERANCE, make_template, movement_error, settled_part
+from signimit.evaluation import PathJudge
 from signimit.paths import half_size, nearest_distances, nearest_points, resample_path, step_lengths
 from signimit.policies.base import CONTROL_PERIOD, Array
 from signimit.policies.closed_loop import Advance, count_steps, move_exactly
@@ -28,6 +28,7 @@ class PathQuality(NamedTuple):
         detour: Way travelled to the drawing over the straight way.
         speed_correlation: Between the hand's speed and the demonstrators' at the same places.
         speed_ratio: The hand's mean speed over the demonstrators' at the same places.
+        draws: Whether the path counts as the movement for `signimit.performed`.
     """
 
     misfit: float
@@ -35,11 +36,7 @@ class PathQuality(NamedTuple):
     detour: float
     speed_correlation: float
     speed_ratio: float
-
-    @property
-    def draws(self) -> bool:
-        """Whether the path counts as the movement."""
-        return self.misfit <= TOLERANCE
+    draws: bool
 
 
 def shove_half_way(shove: Array, seconds: float) -> Advance:
@@ -60,12 +57,12 @@ def shove_half_way(shove: Array, seconds: float) -> Advance:
 
 def judge_path(path: Array, loops: Sequence[Array]) -> PathQuality:
     """Judge one hand's path, shape (n, 2), by the loops that were shown, each (T, 2), all in the object's frame."""
-    tail = settled_part(path)
-    misfit = np.inf if tail is None else movement_error(tail, [make_template(loop) for loop in loops])
-    if misfit > TOLERANCE:
-        return PathQuality(misfit, np.nan, np.nan, np.nan, np.nan)
+    performance = PathJudge([loops]).judge(path, np.zeros((1, 2)))
+    if performance.movement < 0:
+        return PathQuality(performance.misfit, np.nan, np.nan, np.nan, np.nan, False)
     settled = path[len(path) // 3 :]
-    return PathQuality(misfit, corner_gap(settled, loops[0]), detour(path, loops[0]), *speed_agreement(settled, loops))
+    gap, way, speed = corner_gap(settled, loops[0]), detour(path, loops[0]), speed_agreement(settled, loops)
+    return PathQuality(performance.misfit, gap, way, *speed, True)
 
 
 def corner_gap(settled: Array, loop: Array) -> float:

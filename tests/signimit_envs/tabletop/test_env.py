@@ -21,7 +21,7 @@ from signimit_envs.video.rendering import choose_backend
 
 CENTRE = {"objects": [[0.0, 0.0], [0.2, 0.1], [-0.2, 0.1]], "hand": [0.1, 0.0]}
 OBSERVED = {"hand", "hand_velocity", "joints", "joint_velocities", "objects", "signs"}
-TOLD = {"request", "is_success", "performance", "ik_residual", "physics_error"}
+TOLD = {"request", "is_success", "performance", "success_performance", "ik_residual", "physics_error"}
 
 
 def unwrapped(env: gym.Env[Any, Any]) -> TabletopEnv:
