@@ -33,6 +33,7 @@ from signimit.io.safe_files import Record, read_records, whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.study_paper import compare_conditions
 from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
 
 OUT = Path("results/study")
@@ -228,5 +229,5 @@ def write_facts(path: Path, facts: dict[str, Any]) -> None:
 
 SUBCOMMANDS = {
     "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
-    "policies": compare_policies, "lasa": compare_on_lasa,
+    "policies": compare_policies, "lasa": compare_on_lasa, "paper": compare_conditions,
 }  # fmt: skip

@@ -1,0 +1,104 @@
+"""The study of what the paper's own method needs of its demonstrations."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+from tqdm import tqdm
+
+from signimit.benchmark.results import installed_versions
+from signimit.benchmark.studies.paper_conditions import (
+    RUNS,
+    IdealGamma,
+    LevelScore,
+    Result,
+    run_ideal_gamma,
+    run_levels,
+    score_levels,
+    study_levels,
+)
+from signimit.benchmark.studies.tables import write_csv
+from signimit.benchmark.tables import markdown_table
+from signimit.exceptions import InvalidInputError
+from signimit.io.safe_files import whole_files
+from signimit.strokes import StrokeLibrary
+from signimit_envs.cli.command_line import command_text
+
+CONTRASTS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0)  # of made-up γ
+SPREADS = (0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.05, 1.2)
+
+
+def compare_conditions(
+    *,
+    movers: Path | None = None,
+    sessions: int = 12,
+    first_seed: int = 0,
+    only: str = "",
+    workers: int = 0,
+    out: Path = Path("out/paper_conditions"),
+) -> None:
+    """Vary demonstrations one thing at a time, and measure Algorithm 1 and the 50 nearest points alone.
+
+    Args:
+        movers: Stroke library of real people who draw "circle" and "triangle", apex up; left out, built-in people only.
+        sessions: How many sessions at each level, of each kind of people.
+        first_seed: Seed of the first session; the others follow.
+        only: Vary only factors whose names contain this; then no figures are drawn.
+        workers: Processes; left out, as many as there are processors.
+        out: Folder for results.csv, levels.csv, gamma.csv, study.json, table.md and two figures.
+    """
+    levels = [level for level in study_levels() if only in level.factor]
+    if not levels:
+        raise InvalidInputError("only", "part of the name of a factor", f"{only!r}")
+    libraries = [None] if movers is None else [None, StrokeLibrary.load(movers)]
+    results: list[Result] = []
+    for library in libraries:
+        found = run_levels(levels, sessions, library, first_seed, workers or os.cpu_count() or 1)
+        for rows in tqdm(found, total=sessions, unit="session"):
+            results += rows
+    scores, map_ = score_levels(results), list(run_ideal_gamma(CONTRASTS, SPREADS))
+    facts = {
+        "command": command_text(),
+        "versions": installed_versions("signimit", "numpy", "scipy"),
+        "people": ["built-in", *(library.source for library in libraries if library)],
+        "seeds": [first_seed, first_seed + sessions - 1],
+        "sessions at each level": sessions,
+        "runs of Algorithm 1 on each session": RUNS,
+        "intervals": "Wilson, 95 %, with the spread between sessions allowed for",
+        "levels": [score._asdict() for score in scores],
+    }
+    out.mkdir(parents=True, exist_ok=True)
+    with whole_files(out) as folder:
+        write_csv(folder / "results.csv", Result._fields, results)
+        write_csv(folder / "levels.csv", LevelScore._fields, scores)
+        write_csv(folder / "gamma.csv", IdealGamma._fields, map_)
+        text = json.dumps(facts, indent=1).replace("NaN", "null")
+        (folder / "study.json").write_text(text + "\n", encoding="utf-8")
+        (folder / "table.md").write_text(conditions_table(scores) + "\n", encoding="utf-8")
+        if not only:
+            from signimit.plots.paper_conditions import draw_groups, draw_policy
+
+            draw_groups(scores, results, map_).savefig(folder / "groups.png", dpi=90)
+            draw_policy(scores).savefig(folder / "policy.png", dpi=90)
+    print(conditions_table(scores))
+    print(f"Written to {out}.")
+
+
+def conditions_table(scores: list[LevelScore]) -> str:
+    """Return the scores as a Markdown table, a row for each level, in per cent with 95 % intervals."""
+    rows = []
+    for s in scores:
+        obeyed = f"{100 * s.obeyed:.0f} [{100 * s.obeyed_low:.0f}, {100 * s.obeyed_high:.0f}]"
+        rows.append(
+            (
+                s.people, s.senses, s.factor, s.value,
+                f"{100 * s.right:.0f} [{100 * s.right_low:.0f}, {100 * s.right_high:.0f}]",
+                f"{100 * s.merged:.0f}", f"{100 * s.circle_merged:.0f}", f"{100 * s.split:.0f}", f"{s.contrast:.1f}",
+                f"{s.spread:.2f}", f"{100 * s.foci:.0f}", obeyed.replace("nan [nan, nan]", ""),
+            )
+        )  # fmt: skip
+    head = ("people", "senses", "factor", "value", "runs right", "merged", "with the circle", "split", "contrast",
+            "spread", "objects right", "obeyed")  # fmt: skip
+    return markdown_table(head, rows)
