@@ -17,8 +17,8 @@ from signimit.benchmark.studies.paper_conditions import (
     run_ideal_gamma,
     run_levels,
     score_levels,
-    study_levels,
 )
+from signimit.benchmark.studies.paper_levels import study_levels
 from signimit.benchmark.studies.tables import write_csv
 from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError

@@ -1,7 +1,7 @@
 """Study of what must be true of demonstrations for the paper's own method to do as well as in its paper (section III).
 
-Algorithm 1 was right in 50 of 51 runs there, and 50 nearest points drew 36 of 36 reproductions. Here one thing at a time
-is varied, `Level` by level, and both are measured on the same sessions.
+Algorithm 1 was right in 50 of 51 runs there, and 50 nearest points drew 36 of 36 reproductions. Here one thing at a
+time is varied, and both are measured on the same sessions.
 """
 
 from __future__ import annotations
@@ -9,7 +9,6 @@ from __future__ import annotations
 import multiprocessing
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -18,11 +17,9 @@ from numpy.typing import NDArray
 
 from signimit.benchmark.scoring import same_partition
 from signimit.benchmark.statistics import estimate_share
+from signimit.benchmark.studies.paper_levels import Level
 from signimit.benchmark.studies.varied_demonstrations import (
     CIRCLE_AGAINST,
-    DOWN_AGAINST,
-    ONE_SENSE,
-    UP_AGAINST,
     Variation,
     VariedSession,
     choose_mover,
@@ -34,7 +31,7 @@ from signimit.grouping import STEPS
 from signimit.inference import infer_focus
 from signimit.policies import run_policy
 from signimit.policies.base import CONTROL_PERIOD, Array
-from signimit.policies.knn import NEIGHBOURS, KNearestPolicy
+from signimit.policies.knn import KNearestPolicy
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.scenes import sample_hand, sample_scene
@@ -43,30 +40,9 @@ RUNS = 51  # of Algorithm 1 on each session, as in the paper
 SECONDS = 10.0  # that a hand moves for each command
 STARTS = 3  # commands for each movement, from random starts about random objects
 SHOWN = 4  # drawings of each movement that the judge compares a path with
-FIRST = ("random", "near identity")
 NEARNESS = (
     0.1  # largest membership, beside 1 of its own group, that a demonstration has before the columns are rescaled
 )
-
-
-class Level(NamedTuple):
-    """One value of one factor, all else being equal.
-
-    Attributes:
-        factor: What is varied.
-        value: Its value, in words.
-        variation: How demonstrations are drawn.
-        first: M_1 of Algorithm 1, one of `FIRST`.
-        neighbours: k of the policy.
-        steady: Whether the hand goes at constant speed in the mean direction; else as slowly as directions cancel.
-    """
-
-    factor: str
-    value: str
-    variation: Variation
-    first: str = "random"
-    neighbours: int = NEIGHBOURS
-    steady: bool = False
 
 
 class Result(NamedTuple):
@@ -107,90 +83,6 @@ class Result(NamedTuple):
     commands: int = 0
     obeyed: int = 0
     misfit: float = float("nan")
-
-
-def factor_levels(senses: tuple[int, int, int]) -> list[Level]:
-    """Return every level of every factor, varied one at a time from the usual demonstrations in these senses."""
-    base = Variation(senses=senses)
-    changes: dict[str, dict[str, dict[str, object]]] = {
-        "points": {"as the hand moved": {}, "evenly spaced": {"pace": "even"}},
-        "shape": {"as drawn": {}, "ideal": {"shape": "ideal"}},
-        "drawings": {
-            "one, repeated": {"one_drawing": True},
-            "people's": {},
-            "+ 0.05": {"waver": 0.05},
-            "+ 0.1": {"waver": 0.1},
-        },
-        "rounds": {"1": {"rounds": 1}, "2": {}, "3": {"rounds": 3}, "6": {"rounds": 6}},
-        "points a second": {"12": {"density": 0.25}, "50": {}, "125": {"density": 2.5}, "200": {"density": 4.0}},
-        "reach": {
-            "none": {"reach": "none"},
-            "to the nearest point": {"reach": "to the nearest point"},
-            "to the beginning": {},
-        },
-        "half size, cm": {"10.5": {"sizes": (0.105, 0.105)}, "9-12": {}, "6-15": {"sizes": (0.06, 0.15)}},
-        "objects apart, cm": {
-            "5": {"separation": 0.05},
-            "14": {},
-            "25": {"separation": 0.25},
-            "40": {"separation": 0.4},
-        },
-    }
-    levels = [
-        Level(factor, value, replace(base, **change))
-        for factor, values in changes.items()
-        for value, change in values.items()
-    ]
-    levels += [Level("M_1", first, base, first=first) for first in FIRST]
-    return levels
-
-
-def policy_levels() -> list[Level]:
-    """Return the levels of k and of the hand's speed; the grouping does not depend on them."""
-    counts = (1, 5, 10, 20, NEIGHBOURS, 100, 200)
-    speeds = {"mean of the outputs": False, "constant": True}
-    levels = [Level("k", str(k), Variation(), neighbours=k) for k in counts]
-    return levels + [Level("speed of the hand", name, Variation(), steady=steady) for name, steady in speeds.items()]
-
-
-def sense_levels() -> list[Level]:
-    """Return who of the three movements turns against the others."""
-    named = {"none": ONE_SENSE, "triangle up": UP_AGAINST, "triangle down": DOWN_AGAINST, "circle": CIRCLE_AGAINST}
-    return [Level("turns the other way", name, Variation(senses=senses)) for name, senses in named.items()]
-
-
-STEPS_UP: dict[str, dict[str, object]] = {
-    "one sense": {"senses": ONE_SENSE},
-    "circle against": {"senses": CIRCLE_AGAINST},
-    "even points": {"pace": "even"},
-    "M_1 near identity": {},
-    "reach to the nearest point": {"reach": "to the nearest point"},
-    "125 points a second": {"density": 2.5},
-    "constant speed": {},
-}
-"""Conditions in the order in which they are added, one on top of the other; 125 reports a second are a mouse's."""
-
-
-def ladder_levels() -> list[Level]:
-    """Return conditions added one by one, and then all of them but one."""
-    levels, names = [], list(STEPS_UP)
-    for count in range(1, len(names) + 1):
-        levels.append(_with_all("added one by one", ("+ " * (count > 1)) + names[count - 1], names[:count]))
-    return levels + [_with_all("all but one", "without " + name, [n for n in names if n != name]) for name in names[1:]]
-
-
-def _with_all(factor: str, value: str, names: Sequence[str]) -> Level:
-    changes: dict[str, object] = {}
-    for name in names:
-        changes |= STEPS_UP[name]
-    first, steady = FIRST["M_1 near identity" in names], "constant speed" in names
-    return Level(factor, value, replace(Variation(), **changes), first=first, steady=steady)
-
-
-def study_levels() -> list[Level]:
-    """Return all levels of the study; those of every factor twice, in one sense and with the circle against."""
-    factors = [*factor_levels(CIRCLE_AGAINST), *factor_levels(ONE_SENSE)]
-    return [*sense_levels(), *factors, *policy_levels(), *ladder_levels()]
 
 
 def run_levels(
@@ -339,7 +231,7 @@ class LevelScore(NamedTuple):
 
 
 def score_levels(results: Sequence[Result]) -> list[LevelScore]:
-    """Average over sessions, a row for each level, in the order they first appear; medians of contrast, spread, misfit."""
+    """Average over sessions, a row for each level in the order of appearance; contrast, spread, misfit by medians."""
     groups: dict[tuple[str, ...], list[Result]] = {}
     for result in results:
         groups.setdefault(result[:4], []).append(result)
