@@ -191,8 +191,9 @@ def judge_policy(session: VariedSession, level: Level, seed: int) -> tuple[int, 
     for movement in range(len(shown)):
         members = np.flatnonzero(session.movement == movement)
         local = [session.paths[t] - session.objects[t, session.focus[t]] for t in members]
-        times = [np.arange(len(path)) * CONTROL_PERIOD / level.variation.density for path in local]
-        policy = KNearestPolicy.learn(list(map(Stroke, local, times)), neighbours=level.neighbours)
+        period = CONTROL_PERIOD / level.variation.density
+        shown_strokes = [Stroke(path, period * np.arange(len(path), dtype=np.float64)) for path in local]
+        policy = KNearestPolicy.learn(shown_strokes, neighbours=level.neighbours)
         hands = np.array([sample_hand(rng) - sample_scene(rng)[0] for _ in range(STARTS)])
         drawn = run_policy(partial(_steady_velocity, policy) if level.steady else policy, hands, SECONDS)
         for path in drawn.transpose(1, 0, 2):
@@ -205,6 +206,9 @@ def judge_policy(session: VariedSession, level: Level, seed: int) -> tuple[int, 
 def _steady_velocity(policy: KNearestPolicy, hands: Array) -> Array:
     velocity = policy(hands)
     return np.asarray(policy.speed * velocity / np.maximum(np.linalg.norm(velocity, axis=-1, keepdims=True), 1e-12))
+
+
+SHARES = ("right", "right_low", "right_high", "foci", "obeyed", "obeyed_low", "obeyed_high")
 
 
 class LevelScore(NamedTuple):
@@ -232,22 +236,32 @@ class LevelScore(NamedTuple):
 
 def score_levels(results: Sequence[Result]) -> list[LevelScore]:
     """Average over sessions, a row for each level in the order of appearance; contrast, spread, misfit by medians."""
-    groups: dict[tuple[str, ...], list[Result]] = {}
+    groups: dict[tuple[str, str, str, str], list[Result]] = {}
     for result in results:
-        groups.setdefault(result[:4], []).append(result)
+        key = (result.people, result.senses, result.factor, result.value)
+        groups.setdefault(key, []).append(result)
     scores = []
-    for key, mine in groups.items():
+    for (people, senses, factor, value), mine in groups.items():
         runs = [r.runs for r in mine]
         right = estimate_share([r.right for r in mine], runs)
-        rest = [sum(getattr(r, name) for r in mine) / sum(runs) for name in ("merged", "circle_merged", "split")]
-        middle = [float(np.median([getattr(r, name) for r in mine])) for name in ("contrast", "spread", "misfit")]
-        policy = [float("nan")] * 3
+        merged, circle_merged, split = (
+            round(sum(counts) / sum(runs), 4)
+            for counts in zip(*((r.merged, r.circle_merged, r.split) for r in mine), strict=True)
+        )
+        contrast, spread, misfit = np.median([(r.contrast, r.spread, r.misfit) for r in mine], axis=0).round(4).tolist()
+        drawn = None
         if all(r.commands for r in mine):
-            found = estimate_share([r.obeyed for r in mine], [r.commands for r in mine])
-            policy = [found.mean, found.low, found.high]
+            drawn = estimate_share([r.obeyed for r in mine], [r.commands for r in mine])
+        obeyed, low, high = (drawn.mean, drawn.low, drawn.high) if drawn else (float("nan"),) * 3
         foci = sum(r.foci for r in mine) / (12 * len(mine))
-        numbers = (right.mean, right.low, right.high, *rest, *middle[:2], foci, *policy, middle[2])
-        scores.append(LevelScore(*key, len(mine), *(round(number, 4) for number in numbers)))
+        shares = (right.mean, right.low, right.high, foci, obeyed, low, high)
+        rounded = dict(zip(SHARES, (round(share, 4) for share in shares), strict=True))
+        scores.append(
+            LevelScore(
+                people=people, senses=senses, factor=factor, value=value, sessions=len(mine), merged=merged,
+                circle_merged=circle_merged, split=split, contrast=contrast, spread=spread, misfit=misfit, **rounded,
+            )
+        )  # fmt: skip
     return scores
 
 

@@ -104,7 +104,8 @@ def compose_varied(person: StrokeLibrary, variation: Variation, seed: int) -> Va
         library = with_waver(library, strokes, variation.waver)
     sampler = StrokeSampler(library)
     favourites = [sampler.draw(label, strokes) for label in language.movements]
-    session = VariedSession([], np.empty((len(seen), 3, 2)), *np.array(requests, dtype=np.int64).T, [[], [], []])
+    movement_of, focus_of = np.array(requests, dtype=np.int64).T
+    session = VariedSession([], np.empty((len(seen), 3, 2)), movement_of, focus_of, [[], [], []])
     for t, (movement, focus) in enumerate(requests):
         scene, start = sample_distant_scene(places, variation.separation), hands.uniform(-1.0, 1.0, 2)
         least, largest = variation.sizes

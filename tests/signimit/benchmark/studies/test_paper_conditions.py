@@ -84,10 +84,10 @@ def test_made_up_similarities_are_grouped_right_where_contrast_is_high_and_sprea
     assert good.right > uneven.right > flat.right
 
 
-def test_sessions_are_the_same_at_every_level_and_with_every_number_of_processes() -> None:
+def test_the_same_seeds_give_the_same_results_and_scores_have_intervals() -> None:
     levels = [*sense_levels()[2:], *policy_levels()[:1]]
     alone, again = (list(run_levels(levels, 2)) for _ in range(2))
-    assert alone == again
+    assert str(alone) == str(again)  # NaN is not equal to itself
     scores = score_levels([row for rows in alone for row in rows])
     assert [(s.sessions, s.people) for s in scores] == [(2, "built-in")] * 3
     assert all(s.right_low <= s.right <= s.right_high for s in scores)
