@@ -21,8 +21,8 @@ AGAINST, ONE_SENSE = "++-", "+++"  # senses of triangle up, triangle down and ci
 LADDERS = ("added one by one", "all but one")
 PAPER_GROUPS, PAPER_DRAWN = 50 / 51, 1.0  # the paper's shares: runs of Algorithm 1, reproductions
 GREY = "#777777"
-OF_POLICY = ("k", "speed of the hand")  # factors that grouping does not depend on
-OF_GROUPS = ("M_1", "turns the other way")  # and the policy
+OF_POLICY = ("k nearest points", "speed of the hand")  # factors that grouping does not depend on
+OF_GROUPS = ("M_1", "which turns the other way")  # and the policy
 
 
 def draw_groups(scores: Sequence[LevelScore], results: Sequence[Result], map_: Sequence[IdealGamma]) -> Figure:

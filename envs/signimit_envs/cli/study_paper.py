@@ -33,7 +33,7 @@ SPREADS = (0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.05, 1.2)
 def compare_conditions(
     *,
     movers: Path | None = None,
-    sessions: int = 12,
+    sessions: int = 24,
     first_seed: int = 0,
     only: str = "",
     workers: int = 0,

@@ -42,9 +42,9 @@ def factor_levels(senses: tuple[int, int, int]) -> list[Level]:
     """Return every level of every factor, varied one at a time from the usual demonstrations in these senses."""
     base = Variation(senses=senses)
     changes: dict[str, dict[str, dict[str, Any]]] = {
-        "points": {"as the hand moved": {}, "evenly spaced": {"pace": "even"}},
+        "spacing of points": {"as the hand moved": {}, "evenly spaced": {"pace": "even"}},
         "shape": {"as drawn": {}, "ideal": {"shape": "ideal"}},
-        "drawings": {
+        "scatter, half sizes": {
             "one, repeated": {"one_drawing": True},
             "people's": {},
             "+ 0.05": {"waver": 0.05},
@@ -78,14 +78,14 @@ def policy_levels() -> list[Level]:
     """Return the levels of k and of the hand's speed; the grouping does not depend on them."""
     counts = (1, 5, 10, 20, NEIGHBOURS, 100, 200)
     speeds = {"mean of the outputs": False, "constant": True}
-    levels = [Level("k", str(k), Variation(), neighbours=k) for k in counts]
+    levels = [Level("k nearest points", str(k), Variation(), neighbours=k) for k in counts]
     return levels + [Level("speed of the hand", name, Variation(), steady=steady) for name, steady in speeds.items()]
 
 
 def sense_levels() -> list[Level]:
     """Return who of the three movements turns against the others."""
     named = {"none": ONE_SENSE, "triangle up": UP_AGAINST, "triangle down": DOWN_AGAINST, "circle": CIRCLE_AGAINST}
-    return [Level("turns the other way", name, Variation(senses=senses)) for name, senses in named.items()]
+    return [Level("which turns the other way", name, Variation(senses=senses)) for name, senses in named.items()]
 
 
 STEPS_UP: dict[str, dict[str, Any]] = {
@@ -107,7 +107,11 @@ def ladder_levels() -> list[Level]:
     levels, names = [], list(STEPS_UP)
     for count in range(1, len(names) + 1):
         levels.append(_with_all("added one by one", ("+ " * (count > 1)) + names[count - 1], names[:count]))
-    return levels + [_with_all("all but one", "without " + name, [n for n in names if n != name]) for name in names[1:]]
+    levels += [_with_all("all but one", "without " + name, [n for n in names if n != name]) for name in names[1:]]
+    levels.append(
+        _with_all("all but one", "and without circle against", [n for n in names[:-1] if n != "circle against"])
+    )
+    return levels
 
 
 def _with_all(factor: str, value: str, names: Sequence[str]) -> Level:
