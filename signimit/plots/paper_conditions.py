@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from signimit.benchmark.studies.paper_conditions import IdealGamma, LevelScore, Result
+from signimit.benchmark.studies.paper_levels import LADDERS
 from signimit.exceptions import MissingDependencyError
 
 try:
@@ -18,7 +19,6 @@ except ImportError:
 COLUMNS = 4
 COLOURS = {"built-in": "#0571b0", "real": "#b35806"}
 AGAINST, ONE_SENSE = "++-", "+++"  # senses of triangle up, triangle down and circle
-LADDERS = ("added one by one", "all but one")
 PAPER_GROUPS, PAPER_DRAWN = 50 / 51, 1.0  # the paper's shares: runs of Algorithm 1, reproductions
 GREY = "#777777"
 OF_POLICY = ("k nearest points", "speed of the hand")  # factors that grouping does not depend on

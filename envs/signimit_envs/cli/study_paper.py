@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from tqdm import tqdm
@@ -18,7 +20,7 @@ from signimit.benchmark.studies.paper_conditions import (
     run_levels,
     score_levels,
 )
-from signimit.benchmark.studies.paper_levels import study_levels
+from signimit.benchmark.studies.paper_levels import LADDERS, study_levels
 from signimit.benchmark.studies.tables import write_csv
 from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError
@@ -28,6 +30,7 @@ from signimit_envs.cli.command_line import command_text
 
 CONTRASTS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0)  # of made-up γ
 SPREADS = (0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.05, 1.2)
+PEOPLE = ("built-in", "real")
 
 
 def compare_conditions(
@@ -47,7 +50,7 @@ def compare_conditions(
         first_seed: Seed of the first session; the others follow.
         only: Vary only factors whose names contain this; then no figures are drawn.
         workers: Processes; left out, as many as there are processors.
-        out: Folder for results.csv, levels.csv, gamma.csv, study.json, table.md and two figures.
+        out: Folder for results.csv, levels.csv, gamma.csv, study.json, two tables and two figures.
     """
     levels = [level for level in study_levels() if only in level.factor]
     if not levels:
@@ -76,29 +79,49 @@ def compare_conditions(
         write_csv(folder / "gamma.csv", IdealGamma._fields, map_)
         text = json.dumps(facts, indent=1).replace("NaN", "null")
         (folder / "study.json").write_text(text + "\n", encoding="utf-8")
-        (folder / "table.md").write_text(conditions_table(scores) + "\n", encoding="utf-8")
+        (folder / "factors.md").write_text(conditions_table(scores) + "\n", encoding="utf-8")
+        (folder / "ladder.md").write_text(ladder_table(scores) + "\n", encoding="utf-8")
         if not only:
             from signimit.plots.paper_conditions import draw_groups, draw_policy
 
             draw_groups(scores, results, map_).savefig(folder / "groups.png", dpi=90)
             draw_policy(scores).savefig(folder / "policy.png", dpi=90)
-    print(conditions_table(scores))
+    print(conditions_table(scores), ladder_table(scores), sep="\n\n")
     print(f"Written to {out}.")
 
 
-def conditions_table(scores: list[LevelScore]) -> str:
-    """Return the scores as a Markdown table, a row for each level, in per cent with 95 % intervals."""
+def conditions_table(scores: Sequence[LevelScore]) -> str:
+    """Return the scores of all factors as a Markdown table, a row for each value, in per cent with 95 % intervals."""
+    found = {(s.people, s.senses, s.factor, s.value): s for s in scores if s.factor not in LADDERS}
     rows = []
-    for s in scores:
-        obeyed = f"{100 * s.obeyed:.0f} [{100 * s.obeyed_low:.0f}, {100 * s.obeyed_high:.0f}]"
-        rows.append(
-            (
-                s.people, s.senses, s.factor, s.value,
-                f"{100 * s.right:.0f} [{100 * s.right_low:.0f}, {100 * s.right_high:.0f}]",
-                f"{100 * s.merged:.0f}", f"{100 * s.circle_merged:.0f}", f"{100 * s.split:.0f}", f"{s.contrast:.1f}",
-                f"{s.spread:.2f}", f"{100 * s.foci:.0f}", obeyed.replace("nan [nan, nan]", ""),
-            )
-        )  # fmt: skip
-    head = ("people", "senses", "factor", "value", "runs right", "merged", "with the circle", "split", "contrast",
-            "spread", "objects right", "obeyed")  # fmt: skip
+    for factor, value in dict.fromkeys(key[2:] for key in found):
+        against = [found.get((people, "++-", factor, value)) for people in PEOPLE]
+        one_sense = [found.get((people, "+++", factor, value)) for people in PEOPLE]
+        rows.append((factor, value, *map(_right, against), *map(_right, one_sense), *map(_obeyed, against)))
+    senses = [f"{people}, {senses}" for senses in ("circle against", "one sense") for people in PEOPLE]
+    head = ("factor", "value", *(f"runs right: {name}" for name in senses), *(f"obeyed: {name}" for name in PEOPLE))
     return markdown_table(head, rows)
+
+
+def ladder_table(scores: Sequence[LevelScore]) -> str:
+    """Return the scores of conditions added one by one as a Markdown table, in per cent with 95 % intervals."""
+    found = {(s.people, s.factor, s.value): s for s in scores if s.factor in LADDERS}
+    rows = []
+    for factor, value in dict.fromkeys(key[1:] for key in found):
+        both = [found.get((people, factor, value)) for people in PEOPLE]
+        rows.append((value, *map(_right, both), *map(_obeyed, both)))
+    measures = [f"{measure}: {people}" for measure in ("runs right", "obeyed") for people in PEOPLE]
+    return markdown_table(("conditions", *measures), rows)
+
+
+def _right(score: LevelScore | None) -> str:
+    return "" if score is None else _per_cent(score.right, score.right_low, score.right_high)
+
+
+def _obeyed(score: LevelScore | None) -> str:
+    known = score is not None and math.isfinite(score.obeyed)
+    return _per_cent(score.obeyed, score.obeyed_low, score.obeyed_high) if score is not None and known else ""
+
+
+def _per_cent(share: float, low: float, high: float) -> str:
+    return f"{100 * share:.0f} [{100 * low:.0f}, {100 * high:.0f}]"

@@ -16,6 +16,7 @@ from signimit.benchmark.studies.varied_demonstrations import (
 from signimit.policies.knn import NEIGHBOURS
 
 FIRST = ("random", "near identity")  # M_1 of Algorithm 1
+LADDERS = ("added one by one", "all but one")  # factors that stand for many conditions
 
 
 class Level(NamedTuple):
@@ -106,11 +107,9 @@ def ladder_levels() -> list[Level]:
     """Return conditions added one by one, and then all of them but one."""
     levels, names = [], list(STEPS_UP)
     for count in range(1, len(names) + 1):
-        levels.append(_with_all("added one by one", ("+ " * (count > 1)) + names[count - 1], names[:count]))
-    levels += [_with_all("all but one", "without " + name, [n for n in names if n != name]) for name in names[1:]]
-    levels.append(
-        _with_all("all but one", "and without circle against", [n for n in names[:-1] if n != "circle against"])
-    )
+        levels.append(_with_all(LADDERS[0], ("+ " * (count > 1)) + names[count - 1], names[:count]))
+    levels += [_with_all(LADDERS[1], "without " + name, [n for n in names if n != name]) for name in names[1:]]
+    levels.append(_with_all(LADDERS[1], "and without circle against", [n for n in names[:-1] if n != "circle against"]))
     return levels
 
 
