@@ -92,12 +92,12 @@ def compare_conditions(
 
 def conditions_table(scores: Sequence[LevelScore]) -> str:
     """Return the scores of all factors as a Markdown table, a row for each value, in per cent with 95 % intervals."""
-    found = {(s.people, s.senses, s.factor, s.value): s for s in scores if s.factor not in LADDERS}
+    one_sense = {(s.people, s.factor, s.value): s for s in scores if s.senses == "+++"}
+    against = {(s.people, s.factor, s.value): s for s in scores if s.senses != "+++"}
     rows = []
-    for factor, value in dict.fromkeys(key[2:] for key in found):
-        against = [found.get((people, "++-", factor, value)) for people in PEOPLE]
-        one_sense = [found.get((people, "+++", factor, value)) for people in PEOPLE]
-        rows.append((factor, value, *map(_right, against), *map(_right, one_sense), *map(_obeyed, against)))
+    for factor, value in dict.fromkeys((s.factor, s.value) for s in scores if s.factor not in LADDERS):
+        first, second = ([found.get((people, factor, value)) for people in PEOPLE] for found in (against, one_sense))
+        rows.append((factor, value, *map(_right, first), *map(_right, second), *map(_obeyed, first)))
     senses = [f"{people}, {senses}" for senses in ("circle against", "one sense") for people in PEOPLE]
     head = ("factor", "value", *(f"runs right: {name}" for name in senses), *(f"obeyed: {name}" for name in PEOPLE))
     return markdown_table(head, rows)
