@@ -38,19 +38,23 @@ def sample_hand(rng: np.random.Generator) -> NDArray[np.float64]:
     return rng.uniform(-1.0, 1.0, 2) * SCENE_HALF_EXTENT
 
 
-def reaching_path(start: NDArray[np.float64], end: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a straight minimum-jerk reach, every 20 ms, from ``start`` to just short of ``end``, shape (T, 2).
+def reaching_path(
+    start: NDArray[np.float64], end: NDArray[np.float64], period: float = CONTROL_PERIOD
+) -> NDArray[np.float64]:
+    """Return a straight minimum-jerk reach from ``start`` to just short of ``end``, shape (T, 2), every ``period`` s.
 
     Source: T. Flash and N. Hogan, J. Neuroscience 5, 1985 (doi:10.1523/JNEUROSCI.05-07-01688.1985).
     """
-    steps = max(2, round(float(np.linalg.norm(end - start)) / REACH_SPEED / CONTROL_PERIOD))
+    steps = max(2, round(float(np.linalg.norm(end - start)) / REACH_SPEED / period))
     s = np.linspace(0.0, 1.0, steps, endpoint=False)[:, None]
     path: NDArray[np.float64] = start + (end - start) * (10 * s**3 - 15 * s**4 + 6 * s**5)
     return path
 
 
-def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) -> NDArray[np.float64]:
-    """Return a stroke as a hand draws it about an object at the origin, every 20 ms, shape (T, 2), m.
+def drawn_path(
+    stroke: Stroke, half_size: float, end_at_object: bool = False, period: float = CONTROL_PERIOD
+) -> NDArray[np.float64]:
+    """Return a stroke as a hand draws it about an object at the origin, every ``period`` s, shape (T, 2), m.
 
     The person's own time profile is kept; the whole is slowed or hastened into a mean speed that hands have.
 
@@ -58,13 +62,14 @@ def drawn_path(stroke: Stroke, half_size: float, end_at_object: bool = False) ->
         stroke: The stroke, any unit.
         half_size: Half of the larger side of its bounding box on the table, m.
         end_at_object: Put the last point at the origin, not the centre of the bounding box.
+        period: Time between two points, s.
     """
     origin = stroke.points[-1] if end_at_object else paths.box_centre(stroke.points)
     points = (stroke.points - origin) * (half_size / paths.half_size(stroke.points))
     times = stroke.times - stroke.times[0]
     length = float(paths.arc_lengths(points)[-1])
     duration = float(np.clip(times[-1], length / DRAWING_SPEED[1], length / DRAWING_SPEED[0]))
-    ticks = np.linspace(0.0, times[-1], max(2, round(duration / CONTROL_PERIOD) + 1))
+    ticks = np.linspace(0.0, times[-1], max(2, round(duration / period) + 1))
     return paths.interpolate(ticks, times, points)
 
 

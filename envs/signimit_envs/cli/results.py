@@ -31,6 +31,8 @@ MEASUREMENTS: dict[str, tuple[str, ...]] = {
         "study policies --sessions 2 --starts 6 --out {out}/policies/synthetic",
         f"study policies --movers {{movements}} {_SHAPES} --sessions 12 --starts 6 --out {{out}}/policies/real",
     ),
+    "judge": ("study judge {movements} --built-in 12 --sessions 12 --out {out}/judge",),
+    "paper-conditions": ("study paper --movers {movements} --sessions 12 --out {out}/paper-conditions",),
     "cells": (
         f"study cells --sessions 15 {_PEOPLE} --out {{out}}/study",
         "study calibration --out {out}/study",

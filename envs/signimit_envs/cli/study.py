@@ -43,6 +43,7 @@ from signimit.strokes import StrokeLibrary
 from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import command_text
 from signimit_envs.cli.study_judge import study_judge
+from signimit_envs.cli.study_paper import compare_conditions
 from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
 
 OUT = Path("out/study")
@@ -279,6 +280,6 @@ def write_facts(path: Path, facts: dict[str, Any]) -> None:
 
 SUBCOMMANDS = {
     "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
-    "real-people": real_people, "judge": study_judge,
+    "real-people": real_people, "judge": study_judge, "paper": compare_conditions,
     "policies": compare_policies, "lasa": compare_on_lasa,
 }  # fmt: skip

@@ -101,4 +101,4 @@ def test_a_demonstration_obeys_its_own_request_and_no_other() -> None:
 
 
 def test_a_hand_that_rests_has_the_worst_misfit() -> None:
-    assert score_path(np.zeros((501, 2)), SESSION.commands[0], TRUTH.templates) == (False, 1.0)
+    assert score_path(np.zeros((501, 2)), SESSION.commands[0], TRUTH.templates) == (False, 3.0)
