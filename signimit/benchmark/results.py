@@ -21,6 +21,7 @@ from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.protocol import Oracle
 from signimit.benchmark.running import Engine, SessionTask, code_hash
+from signimit.benchmark.scoring import WORST
 from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, Estimate, estimate_share, estimate_stage
@@ -120,7 +121,7 @@ def summarise(file: ResultFile) -> Summary:
         mine = [r for r in records if r["split"] == name]
         if not mine:
             continue
-        stages = {stage: estimate_stage(stage, mine) for stage in STAGES}
+        stages = {stage: estimate_stage(stage, mine, WORST) for stage in STAGES}
         splits[name] = {
             "sha256": split_hash(name),
             "sessions_sha256": hashlib.sha256(" ".join(r.get("session", "") for r in mine).encode()).hexdigest(),

@@ -98,18 +98,21 @@ STAGES: dict[str, Stage] = {
     "order": Stage("word order", "sessions in which both words have their right place"),
     "read": Stage("signs", "signs of the commands, two each, that were read right"),
     "obeyed": Stage("obeyed", "commands after which the hand had done what was asked for"),
-    "misfit": Stage("misfit", "of the hand's path to what was asked for, in half sizes of the drawings, 1 at worst"),
+    "misfit": Stage("misfit", "of the hand's path to what was asked for, in half sizes of the drawings, 3 at worst"),
     "families": Stage("families", "counterfactual families all of whose four commands were obeyed"),
 }
 
 
-def estimate_stage(stage: str, records: Sequence[Record]) -> Estimate | None:
-    """Estimate one of `STAGES` from sessions of one split; None if it was not scored in all of them."""
+def estimate_stage(stage: str, records: Sequence[Record], worst_misfit: float) -> Estimate | None:
+    """Estimate one of `STAGES` from sessions of one split; None if it was not scored in all of them.
+
+    No misfit in the records is larger than ``worst_misfit`` half sizes.
+    """
     if not records or not all(("families" if stage == "families" else stage) in r for r in records):
         return None
     scores = [_session_scores(stage, r) for r in records]
-    estimate = estimate_misfit if stage == "misfit" else estimate_share
-    return estimate([s for s, _ in scores], [n for _, n in scores])
+    sums, counts = [s for s, _ in scores], [n for _, n in scores]
+    return estimate_misfit(sums, counts, worst_misfit) if stage == "misfit" else estimate_share(sums, counts)
 
 
 def _session_scores(stage: str, record: Record) -> tuple[float, int]:
@@ -148,14 +151,14 @@ def estimate_share(sums: ArrayLike, counts: ArrayLike) -> Estimate:
     return Estimate(mean, min(low, mean), max(high, mean), float(total.sum()), int(scores))
 
 
-def estimate_misfit(sums: ArrayLike, counts: ArrayLike) -> Estimate:
-    """Estimate the mean of lengths in [0, 1] that come in clusters, with Student's interval; [0, 1] of one cluster."""
+def estimate_misfit(sums: ArrayLike, counts: ArrayLike, worst: float) -> Estimate:
+    """Estimate the mean of lengths in [0, worst] that come in clusters, with Student's interval; all of it of one."""
     total, count = np.asarray(sums, dtype=np.float64), np.asarray(counts, dtype=np.float64)
     mean, clusters = float(total.sum() / count.sum()), len(total)
-    low, high = 0.0, 1.0
+    low, high = 0.0, worst
     if clusters > 1:
         half = float(stdtrit(clusters - 1, 0.975)) * float(np.sqrt(_variance_of_mean(total, count)))
-        low, high = max(0.0, mean - half), min(1.0, mean + half)
+        low, high = max(0.0, mean - half), min(worst, mean + half)
     return Estimate(mean, low, high, float(total.sum()), int(count.sum()))
 
 

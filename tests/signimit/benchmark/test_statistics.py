@@ -74,12 +74,13 @@ def test_intervals_of_clustered_commands_hold_what_they_promise() -> None:
 
 
 def test_the_misfits_interval_is_students_of_the_sessions() -> None:
-    found = estimate_misfit([0.9, 1.8], [9, 9])
+    found = estimate_misfit([0.9, 1.8], [9, 9], 1.0)
     half = 12.7062 * np.sqrt(0.005 / 2)
     assert found.mean == pytest.approx(0.15)
     assert found.low == 0.0
     assert found.high == pytest.approx(0.15 + half, abs=1e-4)
-    assert interval(estimate_misfit([0.9], [9]))[1:] == (0.0, 1.0)
+    assert interval(estimate_misfit([9.0, 21.6], [9, 9], 3.0))[2] == 3.0
+    assert interval(estimate_misfit([0.9], [9], 3.0))[1:] == (0.0, 3.0)
 
 
 RECORDS = [
@@ -89,7 +90,7 @@ RECORDS = [
 
 
 def test_stages_are_counted_by_hand() -> None:
-    totals = {stage: (e.total, e.count) for stage in STAGES if (e := estimate_stage(stage, RECORDS))}
+    totals = {stage: (e.total, e.count) for stage in STAGES if (e := estimate_stage(stage, RECORDS, 3.0))}
     assert totals == {
         "obeyed": (7, 8),
         "misfit": (pytest.approx(1.6), 8),
@@ -100,6 +101,6 @@ def test_stages_are_counted_by_hand() -> None:
 
 
 def test_a_stage_that_one_session_does_not_tell_is_not_scored() -> None:
-    assert estimate_stage("focus", [*RECORDS]) is None
-    assert estimate_stage("groups", [RECORDS[0], {"obeyed": [1]}]) is None
-    assert estimate_stage("obeyed", []) is None
+    assert estimate_stage("focus", [*RECORDS], 3.0) is None
+    assert estimate_stage("groups", [RECORDS[0], {"obeyed": [1]}], 3.0) is None
+    assert estimate_stage("obeyed", [], 3.0) is None

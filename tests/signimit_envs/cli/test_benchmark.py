@@ -26,7 +26,7 @@ def test_an_entry_of_ones_own_runs_and_gets_a_line_and_a_panel(run: Any, tmp_pat
     assert "| still.py:Still | **0 [0, 18]** | 0 [0, 18] |" in said
     assert "s of a processor; 10000 take " in said
     run("benchmark", "table", "--out", out)
-    assert "| still.py:Still | 2 | 18 | 0.00 [0.00, 0.18] | 1.00 [1.00, 1.00] |" in (out / "README.md").read_text()
+    assert "| still.py:Still | 2 | 18 | 0.00 [0.00, 0.18] | 3.00 [3.00, 3.00] |" in (out / "README.md").read_text()
     pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
     run("benchmark", "plot", "--out", out)
     assert (out / "obeyed.png").read_bytes().startswith(b"\x89PNG")
