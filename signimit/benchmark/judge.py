@@ -13,7 +13,7 @@ import tokenize
 from functools import cache
 from types import ModuleType
 
-from signimit import evaluation, paths
+from signimit import drawing_alignment, evaluation, paths
 from signimit.benchmark import scoring
 
 _ENTRANCES = ("judge_inference", "count_signs_read", "score_path")  # of `signimit.benchmark.scoring`
@@ -61,7 +61,7 @@ def _definitions(module: ModuleType) -> dict[str, ast.stmt]:
 def _imported(module: ModuleType, name: str) -> tuple[ModuleType, str]:
     """Return where a name of a module comes from, if that is another module of the judge."""
     owner = getattr(getattr(module, name, None), "__module__", None)
-    for other in (evaluation, paths):
+    for other in (evaluation, drawing_alignment, paths):
         if owner == other.__name__ or (owner is None and name in _definitions(other)):
             return other, name
     return module, name

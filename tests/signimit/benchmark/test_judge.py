@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from signimit import evaluation, paths
+from signimit import drawing_alignment, evaluation, paths
 from signimit.benchmark import judge, scoring
 
 
@@ -35,6 +35,8 @@ def test_a_threshold_or_a_formula_makes_another_judge(monkeypatch: pytest.Monkey
     assert len(as_it_is) == 16
     line = next(line for line in text.splitlines() if line.startswith("TOLERANCE = "))
     assert hash_where(monkeypatch, evaluation=text.replace(line, "TOLERANCE = 0.1")) != as_it_is
+    alignment = inspect.getsource(drawing_alignment)
+    assert hash_where(monkeypatch, drawing_alignment=alignment.replace("_NEAR = 0.4", "_NEAR = 0.5")) != as_it_is
     geometry = inspect.getsource(paths)
     changed = geometry.replace("def half_size(", "def half_size(not_the_same, ", 1)
     assert hash_where(monkeypatch, paths=changed) != as_it_is
