@@ -10,6 +10,7 @@ import math
 import os
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -114,10 +115,11 @@ def run_real_session(condition: Condition, seed: int) -> Record:
         A record with the people, and for each method its three verdicts (groups, foci, word order), whether each
         command was obeyed, and the misfits in half sizes.
     """
-    number = int(condition.name.split()[0])
-    rng = np.random.default_rng([seed, number])
+    number, _, *pair = condition.name.split()
+    rng = np.random.default_rng([seed, int(number)])
     people = condition.choose_people(condition.language, 0, rng, rng)
-    session = compose_session(condition, seed, people, rng)
+    # An entry's random numbers depend on the condition's name, and must not on the identity of the code in it.
+    session = compose_session(replace(condition, name=" ".join([number, *pair])), seed, people, rng)
     found = {}
     for method in METHODS:
         entry: Any = make_entry(ENTRANTS[method], session)

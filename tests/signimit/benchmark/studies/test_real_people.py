@@ -89,6 +89,17 @@ def test_a_session_is_scored_for_both_methods_and_the_same_seed_is_the_same(reco
     assert run_real_session(condition, 1)["methods"] != record["methods"]
 
 
+def test_what_a_session_comes_to_does_not_depend_on_the_codes_hash(
+    recordings: Recordings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The paper's method draws M_1 at random: from people and seed, so that an unrelated edit changes no result."""
+    found = []
+    for code in ("one", "other"):
+        monkeypatch.setattr(real_people, "code_hash", lambda code=code: code)
+        found.append([run_real_session(c, 0)["methods"] for c in real_conditions(recordings)])
+    assert found[0] == found[1]
+
+
 def test_rows_count_all_and_every_person() -> None:
     def record(signer: str, mover: str, obeyed: int) -> Record:
         ours = {"verdicts": [1, 1, 1], "obeyed": [1] * 9}
