@@ -7,7 +7,7 @@ import json
 import logging
 import secrets
 import time
-from collections.abc import Awaitable, Callable, MutableMapping
+from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from typing import Any
 
 from signimit_envs.studio.limits import LIMITS
@@ -31,6 +31,7 @@ HEADERS = (
     (b"cross-origin-opener-policy", b"same-origin"),
     (b"cache-control", b"no-store"),
 )
+_NAVIGATION = {b"sec-fetch-mode": [b"navigate"], b"sec-fetch-dest": [b"document"]}
 _log = logging.getLogger(__name__)
 
 
@@ -57,7 +58,9 @@ class Guard:
     """ASGI middleware about an application, which is reached under ``/TOKEN/``.
 
     A page elsewhere can make a browser send requests here, and by DNS rebinding even read the answers. So the Host
-    must be one of ours, the Origin, where there is one, must be that Host, and the token must be in the path.
+    must be one of ours, the Origin, where there is one, must be that Host, and the token must be in the path. What a
+    browser says comes from another site is let in only if it opens a page of its own with it, as a click on the
+    address in a web terminal does: such an answer is shown to the person, and the other site cannot read it.
     """
 
     def __init__(self, app: App, token: str, hosts: frozenset[str], any_address: bool = False) -> None:
@@ -83,8 +86,11 @@ class Guard:
             _log.warning("refused %s with %d: %s", scope["type"], status, sentence)
             await _refuse(scope, send, status, sentence)
             return
-        inner = dict(scope)
         prefix = "/" + self._token.decode()
+        if scope["path"] == prefix:  # what makes addresses clickable likes to leave the last slash out
+            await _redirect(scope, send, prefix + "/")
+            return
+        inner = dict(scope)
         inner["path"] = scope["path"][len(prefix) :]
         inner["raw_path"] = inner["path"].encode()
         if scope["type"] == "http":
@@ -102,10 +108,11 @@ class Guard:
         if origins not in ([], [f"http://{hosts[0]}"]):
             return 403, "Other pages may not use this studio."
         sites = [value for name, value in headers if name == b"sec-fetch-site"]
-        if any(site not in (b"same-origin", b"none") for site in sites):
+        if any(site not in (b"same-origin", b"none") for site in sites) and not _opens_page(scope, headers):
             return 403, "Other pages may not use this studio."
         first, slash, _ = scope["path"].removeprefix("/").partition("/")
-        if not slash or not secrets.compare_digest(first.encode("utf-8", "replace"), self._token):
+        is_token = secrets.compare_digest(first.encode("utf-8", "replace"), self._token)
+        if not is_token or not (slash or _is_reading(scope)):
             return 404, "There is nothing here. The studio printed its whole address when it started."
         if not self._bucket.take():
             return 429, f"Too many requests: at most {LIMITS.requests} a second."
@@ -158,6 +165,17 @@ class _Bounded:
                 )
 
 
+def _is_reading(scope: Scope) -> bool:
+    """Tell whether a request is one that changes nothing."""
+    return scope["type"] == "http" and scope["method"] in ("GET", "HEAD")
+
+
+def _opens_page(scope: Scope, headers: Iterable[tuple[bytes, bytes]]) -> bool:
+    """Tell whether a browser says that it opens a page of its own with the answer, no frame in another one."""
+    told = {name: [value for other, value in headers if other == name] for name in _NAVIGATION}
+    return _is_reading(scope) and told == _NAVIGATION
+
+
 def _is_address(name: str) -> bool:
     try:
         ipaddress.ip_address(name.strip("[]"))
@@ -171,6 +189,16 @@ async def _refuse(scope: Scope, send: Send, status: int, sentence: str) -> None:
         await send({"type": "websocket.close", "code": 1008, "reason": sentence})
         return
     body = json.dumps({"error": sentence}).encode()
-    headers = [(b"content-type", b"application/json"), (b"content-length", str(len(body)).encode()), *HEADERS]
-    await send({"type": "http.response.start", "status": status, "headers": headers})
+    await _answer(send, status, [(b"content-type", b"application/json")], body)
+
+
+async def _redirect(scope: Scope, send: Send, path: str) -> None:
+    """Send a browser to another path here, with the question that it came with."""
+    question = scope["query_string"]
+    await _answer(send, 307, [(b"location", path.encode() + (b"?" + question if question else b""))], b"")
+
+
+async def _answer(send: Send, status: int, headers: list[tuple[bytes, bytes]], body: bytes) -> None:
+    length = (b"content-length", str(len(body)).encode())
+    await send({"type": "http.response.start", "status": status, "headers": [*headers, length, *HEADERS]})
     await send({"type": "http.response.body", "body": body})

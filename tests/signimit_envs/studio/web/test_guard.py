@@ -47,7 +47,9 @@ def test_who_has_the_token_comes_in_and_the_application_does_not_see_it() -> Non
     assert (answer.status_code, answer.text) == (200, "/api/studio 0")
 
 
-@pytest.mark.parametrize("path", ["/", "/api/studio", "/secret-toke/", "/secret-token", "/Secret-token/", "//", "/é/x"])
+@pytest.mark.parametrize(
+    "path", ["/", "/api/studio", "/secret-toke/", "/secret-toke", "/Secret-token", "/Secret-token/", "//", "/é/x"]
+)
 def test_without_the_token_there_is_nothing(path: str) -> None:
     answer = _ask(path)
     assert answer.status_code == 404
@@ -75,6 +77,61 @@ def test_a_foreign_origin_is_refused(origin: str, status: int) -> None:
 )
 def test_a_browser_that_says_so_is_believed(site: str, status: int) -> None:
     assert _ask(f"/{TOKEN}/", headers={"Sec-Fetch-Site": site}).status_code == status
+
+
+OPENS = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+
+
+@pytest.mark.parametrize("site", ["cross-site", "same-site", "none", "same-origin"])
+@pytest.mark.parametrize("user", [{}, {"Sec-Fetch-User": "?1"}])
+def test_a_click_on_the_address_in_another_page_opens_the_studio(site: str, user: dict[str, str]) -> None:
+    assert _ask(f"/{TOKEN}/", headers={"Sec-Fetch-Site": site, **OPENS, **user}).status_code == 200
+
+
+@pytest.mark.parametrize(
+    ("method", "changed"),
+    [
+        ("POST", {}),
+        ("DELETE", {}),
+        ("GET", {"Sec-Fetch-Dest": "iframe"}),
+        ("GET", {"Sec-Fetch-Dest": "embed"}),
+        ("GET", {"Sec-Fetch-Dest": "empty"}),
+        ("GET", {"Sec-Fetch-Mode": "no-cors"}),
+        ("GET", {"Sec-Fetch-Mode": "cors", "Sec-Fetch-Dest": "empty"}),
+        ("GET", {"Sec-Fetch-Mode": "websocket"}),
+        ("GET", {"Sec-Fetch-Mode": "navigate, navigate"}),
+        ("GET", {"Origin": "http://evil.example"}),
+        ("GET", {"Origin": "null"}),
+        ("GET", {"Host": "evil.example:8000"}),
+    ],
+)
+@pytest.mark.parametrize("site", ["cross-site", "same-site"])
+def test_another_page_can_do_nothing_but_open_the_studio(site: str, method: str, changed: dict[str, str]) -> None:
+    headers = {"Sec-Fetch-Site": site, **OPENS, **changed}
+    assert _ask(f"/{TOKEN}/", method=method, headers=headers).status_code == 403
+
+
+def test_another_page_that_does_not_know_the_token_opens_nothing() -> None:
+    assert _ask("/wrong-token/", headers={"Sec-Fetch-Site": "cross-site", **OPENS}).status_code == 404
+
+
+def test_two_modes_of_one_request_are_not_believed() -> None:
+    headers = [("Sec-Fetch-Site", "cross-site"), *OPENS.items(), ("Sec-Fetch-Mode", "cors")]
+    assert _ask(f"/{TOKEN}/", headers=headers).status_code == 403
+
+
+@pytest.mark.parametrize("site", ["none", "cross-site"])
+def test_the_last_slash_is_added_to_the_address(site: str) -> None:
+    headers = {"Sec-Fetch-Site": site, **OPENS}
+    for path, whole in ((f"/{TOKEN}", f"/{TOKEN}/"), (f"/{TOKEN}?a=1&b=/x", f"/{TOKEN}/?a=1&b=/x")):
+        answer = _ask(path, headers=headers)
+        assert (answer.status_code, answer.headers["location"]) == (307, whole)
+        assert _ask(answer.headers["location"], headers=headers).status_code == 200
+
+
+def test_nothing_but_looking_goes_without_the_last_slash() -> None:
+    assert _ask(f"/{TOKEN}", method="POST").status_code == 404
+    assert _ask(f"/{TOKEN}", headers={"Host": "evil.example:8000"}).status_code == 403
 
 
 def test_two_hosts_are_refused() -> None:
