@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Sequence
+
+from signimit.exceptions import install_command
 
 
 def main(argv: Sequence[str] | None = None) -> None:
@@ -15,17 +16,9 @@ def main(argv: Sequence[str] | None = None) -> None:
     """
     try:
         from signimit_envs.cli import main as run
-    except (ImportError, AttributeError, RuntimeError) as error:
-        sys.exit(_why_no_simulator(error))
+    except (ImportError, AttributeError, OSError, RuntimeError) as error:
+        sys.exit(f"MISSING  packages    {error}\n{'':21s}{install_command('signimit')}")
     run(argv)
-
-
-def _why_no_simulator(error: Exception) -> str:
-    """Explain a failed import: with MUJOCO_GL set, MuJoCo loads OpenGL as it is imported."""
-    chosen = os.environ.get("MUJOCO_GL")
-    if chosen:
-        return f"MISSING  opengl      MUJOCO_GL={chosen}, and that fails ({error})\n{'':21s}unset MUJOCO_GL"
-    return f"MISSING  packages    {error}\n{'':21s}pip install signimit"
 
 
 if __name__ == "__main__":

@@ -6,6 +6,8 @@ in one sentence what was wrong, where, what was expected and what was found.
 
 from __future__ import annotations
 
+import shlex
+import sys
 from collections.abc import Iterable
 
 
@@ -78,4 +80,9 @@ class MissingDependencyError(SignimitError, ImportError):
 
     def __str__(self) -> str:
         """Return the sentence, with what to type."""
-        return f"{self.purpose} needs {self.package}: pip install 'signimit[{self.extra}]'."
+        return f"{self.purpose} needs {self.package}: {install_command(f'signimit[{self.extra}]')}."
+
+
+def install_command(requirement: str) -> str:
+    """Return what to type in a shell to install a package for the Python that runs, whichever ``pip`` comes first."""
+    return shlex.join([sys.executable or "python", "-m", "pip", "install", requirement])

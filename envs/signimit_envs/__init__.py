@@ -12,11 +12,13 @@ Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/Tableto
 ``studio``        the web page on which a user teaches and commands the arm
 ``timing``        how long learning, obeying and the environments take
 ``cli``           the commands
+``mujoco_import`` the first import of MuJoCo, which must not fail where only pictures would
 ================= =======================================================================================
 """
 
 import gymnasium as _gym
 
+from signimit_envs import mujoco_import as mujoco_import  # before all that imports MuJoCo
 from signimit_envs.arm.batch import HandTracks as HandTracks
 from signimit_envs.arm.batch import reproduce_many as reproduce_many
 from signimit_envs.arm.scene import CONTROL_RATE as CONTROL_RATE

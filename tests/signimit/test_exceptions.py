@@ -1,6 +1,7 @@
 """Errors: one base, the fitting builtin, facts as attributes, and a sentence that says what would have worked."""
 
 import pickle
+import sys
 
 import pytest
 
@@ -13,7 +14,7 @@ ERRORS = [
     (
         si.MissingDependencyError("defusedxml", "strokes", "reading XML"),
         ImportError,
-        "reading XML needs defusedxml: pip install 'signimit[strokes]'.",
+        f"reading XML needs defusedxml: {sys.executable} -m pip install 'signimit[strokes]'.",
     ),
 ]
 

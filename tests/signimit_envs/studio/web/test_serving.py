@@ -69,7 +69,7 @@ def test_a_missing_package_is_named_with_what_to_type(tmp_path: Path) -> None:
     command = [sys.executable, "-c", WITHOUT, str(tmp_path)]
     said = subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
     assert said.splitlines() == [
-        f"The studio needs {package}: pip install 'signimit[studio]'."
+        f"The studio needs {package}: {sys.executable} -m pip install 'signimit[studio]'."
         for package in ("uvicorn", "websockets", "fastapi")
     ]
 
