@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.special import entr
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
 from signimit.learners.base import Belief, Understanding
@@ -23,6 +24,7 @@ _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
 _CLEAR = 1.5  # median half sizes of a drawing; objects this far apart are told from each other by 1 - 1/e
 
 
+@one_line
 class Ambiguity(NamedTuple):
     """A demonstration that could have been about another object.
 
@@ -46,6 +48,7 @@ class Ambiguity(NamedTuple):
         )
 
 
+@one_line
 class Reasons(NamedTuple):
     """Why a model understood what it did; printing it says it in words.
 
@@ -70,6 +73,7 @@ class Reasons(NamedTuple):
         return self.text
 
 
+@one_line
 class Query(NamedTuple):
     """An utterance to ask with, made of signs that were seen, and where.
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.validation import finite_array, make_generator
 
@@ -18,6 +19,7 @@ _EXPONENT = 0.25  # strength of the preference for few movements, as printed
 Push = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 
 
+@one_line
 class Grouping(NamedTuple):
     """What the grouping algorithm found.
 

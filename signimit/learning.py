@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import Demonstration, DemonstrationSet
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.explanation import Query, Reasons, choose_query, explain_understanding, summarise
 from signimit.inference import WordOrder
@@ -24,6 +25,7 @@ from signimit.strokes import Stroke
 from signimit.validation import finite_array, item_list, make_generator, moving_points
 
 
+@one_line
 class Movement(NamedTuple):
     """A movement that was found: the demonstrations that show it, and their paths seen from their objects.
 
@@ -38,6 +40,7 @@ class Movement(NamedTuple):
     times: tuple[NDArray[np.float64], ...]
 
 
+@one_line
 class Response(NamedTuple):
     """The model's answer to a command.
 
@@ -83,6 +86,12 @@ class ImitationModel:
         """Make the arrays read-only."""
         for array in (self.labels, self.focus, *self.diagnostics.values()):
             array.setflags(write=False)
+
+    def __repr__(self) -> str:
+        """Say what it is made of; `summary` says what was understood."""
+        seen, kinds = len(self.demonstrations), int(self.labels.max()) + 1
+        counts = f"{seen} demonstration{'s' * (seen != 1)}, {kinds} movement{'s' * (kinds != 1)}"
+        return f"ImitationModel({counts}, method={self.method!r}, policy_kind={self.policy_kind!r})"
 
     @property
     def labels(self) -> NDArray[np.int64]:

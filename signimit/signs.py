@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.paths import box_centre, resample_path
 from signimit.strokes import Stroke
@@ -112,6 +113,7 @@ def prototype_points(prototypes: Sequence[Stroke | ArrayLike]) -> tuple[NDArray[
     )
 
 
+@one_line
 @dataclass(frozen=True, eq=False)
 class SignSpace:
     """The space whose coordinates are similarities to a few prototype signs (paper, section II-A).

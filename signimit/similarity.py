@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.acceleration import find_twin
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.paths import nearest_points
 from signimit.validation import finite_array, item_list, moving_points
@@ -17,6 +18,7 @@ DISTANCE_FLOOR = 1e-6  # rad²; keeps γ finite where two paths agree to the las
 _SECONDS = 1e-9  # that numpy takes for a pair of points
 
 
+@one_line
 class DirectedPoints(NamedTuple):
     """A path as input and output of a policy: where the hand was, and which way it went from there.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import reprlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -103,7 +104,7 @@ class StrokeLibrary(Sequence[Stroke]):
         """Say what is in it, e.g. ``StrokeLibrary(340 strokes, 17 labels, 1 writer, source='synthetic')``."""
         sizes = (len(self), "stroke"), (len(set(self.labels)), "label"), (len(set(self.writers)), "writer")
         counts = ", ".join(f"{size} {noun}{'s' * (size != 1)}" for size, noun in sizes)
-        return f"StrokeLibrary({counts}, source={self.source!r})"
+        return f"StrokeLibrary({counts}, source={reprlib.repr(self.source)})"
 
     def select(self, label: str | None = None, writer: str | None = None) -> StrokeLibrary:
         """Return the part with one label, one writer, or both.

@@ -14,10 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.display import one_line
 from signimit.teaching.composition import GroundTruth
 from signimit.teaching.languages import Request
 
 
+@one_line
 class Observation(NamedTuple):
     """Input of an entry at a control step.
 
@@ -60,6 +62,7 @@ class Entry(Protocol):
         ...
 
 
+@one_line
 class Kit(NamedTuple):
     """Arguments of the maker of an entry for a session.
 
@@ -72,6 +75,7 @@ class Kit(NamedTuple):
     rng: np.random.Generator
 
 
+@one_line
 class Truth(NamedTuple):
     """Ground truth of a session, for judges and oracles.
 

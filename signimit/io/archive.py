@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.display import one_line
 from signimit.exceptions import FileFormatError
 from signimit.io.safe_files import replaced_file
 
@@ -20,6 +21,7 @@ MAX_ARRAYS = 1000  # so is one with more entries
 _HEADER = "signimit"
 
 
+@one_line
 class Archive(NamedTuple):
     """What a file holds: arrays by name, and a small JSON object."""
 

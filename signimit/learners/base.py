@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.display import one_line
 from signimit.inference import WordOrder
 
 
+@one_line
 class Belief(NamedTuple):
     """How sure a learner is of what it concluded.
 
@@ -37,6 +39,7 @@ class Evidence(Protocol):
     def _asdict(self) -> dict[str, Any]: ...
 
 
+@one_line
 class Understanding(NamedTuple):
     """Everything that was inferred.
 
@@ -61,6 +64,7 @@ class Understanding(NamedTuple):
         return MappingProxyType({k: v for record in records for k, v in record.items() if v is not None})
 
 
+@one_line
 class Reading(NamedTuple):
     """What an utterance asks for.
 

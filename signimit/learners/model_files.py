@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.display import one_line
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.inference import WordOrder
 from signimit.io.archive import read_archive, write_archive
@@ -22,6 +23,7 @@ from signimit.validation import float_array, whole_numbers
 KIND, VERSION = "imitation model", 1
 
 
+@one_line
 class ModelParts(NamedTuple):
     """All that a model file holds; `signimit.ImitationModel` has the same."""
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.grouping import group_movements
 from signimit.inference import infer_focus, infer_word_order
@@ -19,6 +20,7 @@ from signimit.similarity import maximum_similarities, policy_distances
 from signimit.validation import finite_array
 
 
+@one_line
 class PaperEvidence(NamedTuple):
     """What the paper's steps were made of.
 
@@ -73,6 +75,7 @@ class PaperLearner(Learner):
         return PaperEvidence(arrays["sign_points"], arrays.get("distances"), arrays.get("history"))
 
 
+@one_line
 @dataclass(frozen=True, eq=False)
 class NearestSignReader:
     """Reads a sign as what the nearest demonstrated sign meant (paper, section II-D).

@@ -15,6 +15,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke
 
@@ -77,6 +78,7 @@ class Policy(ABC):
         raise InvalidInputError("policy", "a kind that make_policy makes, which has a file format", self.kind)
 
 
+@one_line
 @dataclasses.dataclass(frozen=True, eq=False)
 class PlacedPolicy(Policy):
     """A policy about a place on the table, called with hands in the table frame.

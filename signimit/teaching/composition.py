@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration, DemonstrationSet
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.languages import Language, Request
@@ -27,6 +28,7 @@ SceneSampler = Callable[[np.random.Generator, int], NDArray[np.float64]]
 Scalar = TypeVar("Scalar", bound=np.generic)
 
 
+@one_line
 @dataclass(frozen=True, eq=False)
 class GroundTruth:
     """Ground truth of demonstrations: the requests and the drawings. For evaluators, never for a learner.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 
 
@@ -20,6 +21,7 @@ class Request(NamedTuple):
     focus: int
 
 
+@one_line
 @dataclass(frozen=True, kw_only=True)
 class Language:
     """A sign language of the interactant, known to the demonstrator and not to the imitator.

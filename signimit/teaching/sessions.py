@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.display import one_line
 from signimit.strokes import Stroke
 from signimit.teaching.composition import (
     GroundTruth,
@@ -28,6 +29,7 @@ from signimit.teaching.stroke_sampler import StrokeSource, as_source
 MOST_COMMANDS = 16  # of a session whose language has more pairs
 
 
+@one_line
 class Command(NamedTuple):
     """A request made of the imitator, in a scene.
 
@@ -46,6 +48,7 @@ class Command(NamedTuple):
     family: int = 0
 
 
+@one_line
 class Asker(NamedTuple):
     """A signer who gives commands.
 
@@ -87,6 +90,7 @@ def ask_in_order(asker: Asker, attempts: int = 1) -> list[Command]:
     return [asker.command(request) for request in asker.language.requests for _ in range(attempts)]
 
 
+@one_line
 @dataclass(frozen=True, kw_only=True)
 class Condition:
     """A kind of sessions: the paper's, or one that differs from it.
@@ -112,6 +116,7 @@ class Condition:
     shown_times: Callable[[Request], int] | None = None
 
 
+@one_line
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Session:
     """What happens in a session, and what was meant.

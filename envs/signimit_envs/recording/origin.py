@@ -16,6 +16,7 @@ import numpy as np
 from gymnasium.envs.registration import EnvSpec
 
 from signimit import InvalidInputError
+from signimit.display import one_line
 from signimit.exceptions import FileFormatError
 from signimit_envs.arm.scene import SUBSTEPS, scene_assets, scene_xml
 from signimit_envs.tabletop.env import TabletopEnv
@@ -32,6 +33,7 @@ HEADER, MODEL = "recording.json", "model.xml"
 """Files of `write_origin`."""
 
 
+@one_line
 @dataclass(frozen=True, kw_only=True)
 class RecordingOrigin:
     """Environment and model of a recording.

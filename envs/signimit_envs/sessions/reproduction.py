@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, Policy, run_policy
+from signimit.display import one_line
 from signimit_envs.arm.scene import CONTROL_RATE, MAX_HAND_SPEED, hand_action
 from signimit_envs.tabletop.env import TabletopEnv
 
 
+@one_line
 class HandTrack(NamedTuple):
     """How the hand moved.
 

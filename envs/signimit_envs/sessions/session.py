@@ -10,6 +10,7 @@ from typing import NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from signimit.display import one_line
 from signimit.evaluation import Performance, performed
 from signimit.exceptions import InvalidInputError
 from signimit.learners import DEFAULT_METHOD, get_learner
@@ -23,6 +24,7 @@ from signimit_envs.sessions.reproduction import reproduce
 from signimit_envs.tabletop_hand import TabletopHandEnv
 
 
+@one_line
 @dataclass(frozen=True, kw_only=True)
 class SessionPlan:
     """Plan of a session; its defaults are those of `signimit.learn`.
@@ -75,6 +77,7 @@ class SessionPlan:
 Track = Callable[[Sequence[Command]], Iterable[Command]]
 
 
+@one_line
 class ArmAnswer(NamedTuple):
     """Answer to a command: what was understood, and how the arm moved.
 
@@ -93,6 +96,7 @@ class ArmAnswer(NamedTuple):
     joints: NDArray[np.float64]
 
 
+@one_line
 class Reproduction(NamedTuple):
     """A command, the answer, and its performance.
 
@@ -112,6 +116,7 @@ class Reproduction(NamedTuple):
         return (self.performance.movement, self.performance.focus) == self.command.request
 
 
+@one_line
 @dataclass(frozen=True, eq=False)
 class SessionResult:
     """Result of a session with one learner and one kind of policy.

@@ -19,7 +19,7 @@ from signimit.teaching.stroke_sampler import ReplacingSampler, StrokeSource
 _DRAWINGS = 2  # drawings of each movement that the success detector compares with
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class TabletopPeople(People[StrokeSource]):
     """`People` whose strokes are drawn with replacement: an episode depends on its seed alone, not on earlier ones.
 

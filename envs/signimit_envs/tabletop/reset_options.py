@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit import InvalidInputError, UnknownNameError
+from signimit.display import one_line
 from signimit.signs import SAMPLES, normalised_sign
 from signimit.teaching.languages import Request
 from signimit.teaching.people.choosing import People
@@ -21,6 +22,7 @@ OPTIONS = ("movement", "focus", "objects", "hand", "signs")
 WORDS = 2  # signs of an utterance in the paper's language (II-A); a filler makes it three
 
 
+@one_line
 class EpisodeStart(NamedTuple):
     """Scene, request and signs that an episode starts from; metres, table frame.
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration
+from signimit.display import one_line
 from signimit.explanation import object_name, ordinal
 from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.sessions.session import ArmAnswer, Reproduction, SessionResult
@@ -30,6 +31,7 @@ for _array in (PARKED, NO_POINTS):
     _array.setflags(write=False)
 
 
+@one_line
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Shot:
     """Content of one frame of a film.

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from signimit.benchmark.splits import FILLER_SIGNS, FOCUS_SIGNS, MOVEMENT_SIGNS, SYNTHETIC_MOVEMENTS
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.composition import compose_prototypes, compose_utterance
@@ -32,6 +33,7 @@ PLAIN_SIZES = (
 REAL_SIZES = ((3, 3, 1), (3, 3, 2), (5, 4, 1), (7, 3, 1), (3, 3, 5), (7, 6, 1))
 
 
+@one_line
 @dataclass(frozen=True, eq=False)
 class Recordings:
     """Strokes of real people.

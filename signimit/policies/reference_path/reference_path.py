@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.display import one_line
 from signimit.paths import (
     TimedPath,
     arc_lengths,
@@ -48,6 +49,7 @@ MOST_NODES = 10_000  # control periods; what would take longer is done faster
 CORNER_ALLOWANCE = 1.03  # times the size: a mean of corners that do not quite meet lies inside them
 
 
+@one_line
 class ReferencePath(NamedTuple):
     """The part of a movement that its demonstrations share.
 

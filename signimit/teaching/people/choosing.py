@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import reprlib
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.composition import SceneSampler, Strokes, compose_demonstration, compose_utterance
@@ -47,6 +49,11 @@ class People(Generic[StrokesT]):
     asking: StrokesT | None = None
     names: tuple[str, str] = ("a synthetic person", "a synthetic person")
 
+    def __repr__(self) -> str:
+        """Say who they are, e.g. ``People(signer='writer 13', mover='writer 2')``."""
+        signer, mover = map(reprlib.repr, self.names)
+        return f"{type(self).__name__}(signer={signer}, mover={mover})"
+
     def speak(self, request: Request, rng: np.random.Generator) -> tuple[NDArray[np.float64], ...]:
         """Let the signer ask for something: W signs, each (T_s, 2), any unit, as `compose_utterance` makes them."""
         return compose_utterance(self.language, self.signs, *request, rng)
@@ -58,6 +65,7 @@ class People(Generic[StrokesT]):
         return compose_demonstration(self.language, self.signs, self.movements, request, rng, scenes)[0]
 
 
+@one_line
 class Source(NamedTuple):
     """Where a person's strokes come from.
 

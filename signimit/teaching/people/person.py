@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.display import one_line
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.paths import headings, wrap_angles
 from signimit.strokes import Stroke, StrokeLibrary
@@ -21,6 +22,7 @@ ISOCHRONY = 0.5  # duration of a stroke grows with this power of its length
 CORNER = np.radians(50.0)  # a junction that turns by more is drawn as a corner
 
 
+@one_line
 @dataclass(frozen=True, kw_only=True)
 class Style:
     """Drawing style of a person. Lengths are in half sizes of the drawing.
@@ -73,6 +75,7 @@ class Style:
         )
 
 
+@one_line
 @dataclass(frozen=True, eq=False)
 class Person:
     """A synthetic person: a drawing style and habits.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, Policy, run_policy
+from signimit.display import one_line
 from signimit.validation import finite_array, item_list
 from signimit_envs.arm.batch.inverse_kinematics import ManyHandsController
 from signimit_envs.arm.batch.physics import ManyArms, QuietLog, compile_arm
@@ -20,6 +21,7 @@ Array = NDArray[np.float64]
 MAX_SECONDS = 3600.0  # s, of a reproduction; a longer one is a mistake in the unit
 
 
+@one_line
 class HandTracks(NamedTuple):
     """Reproductions of B hands.
 
