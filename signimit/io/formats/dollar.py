@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from signimit.exceptions import FileFormatError
-from signimit.io.formats.pen_recording import PenRecording, library_from_recordings
+from signimit.io.formats.pen_clock import relative_seconds
+from signimit.io.formats.pen_recording import PenFile, PenRecording, library_from_pen_file
 from signimit.io.formats.textfile import local_name, read_xml
 from signimit.strokes import StrokeLibrary
 
@@ -20,11 +21,15 @@ if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
 
-def read_dollar(path: str | os.PathLike[str]) -> StrokeLibrary:
+def read_dollar(path: str | os.PathLike[str], strict: bool = False) -> StrokeLibrary:
     """Read one gesture.
 
     The label is the gesture's name without its running number, the writer its subject. Points are in screen
     coordinates, y down; they are mirrored. Time stamps are milliseconds.
+
+    Args:
+        path: The file.
+        strict: Raise the error of the first drawing that would be left out; here there is only one, which is raised.
 
     Returns:
         A library of one stroke.
@@ -34,8 +39,17 @@ def read_dollar(path: str | os.PathLike[str]) -> StrokeLibrary:
         FileFormatError: Names the file, the point and what was expected.
         MissingDependencyError: If defusedxml is not installed.
     """
+    document = read_xml(path)
+    return library_from_pen_file(path, parse_dollar(document.root, path), strict, document.findings)
+
+
+def parse_dollar(root: Element, path: str | os.PathLike[str]) -> PenFile:
+    """Find the drawing of a parsed file.
+
+    Raises:
+        FileFormatError: If it is no gesture, or a point is none.
+    """
     where = os.fspath(path)
-    root = read_xml(path)
     if local_name(root) != "Gesture":
         raise FileFormatError(where, "a Gesture element", f"{local_name(root)!r}")
     pieces = [e for e in root.iter() if local_name(e) == "Stroke"] or [root]
@@ -46,12 +60,12 @@ def read_dollar(path: str | os.PathLike[str]) -> StrokeLibrary:
     label = root.get("Name", "").rstrip("0123456789").strip("~_- ") or root.get("Name", "unknown")
     recording = PenRecording(
         [part[:, :2] * (1.0, -1.0) for part in rows],
-        [part[:, 2] / 1000.0 for part in rows],
+        relative_seconds([part[:, 2] for part in rows], 0.001),
         label,
         root.get("Subject", "unknown"),
         where,
     )
-    return library_from_recordings([recording], "$1 gesture logs")
+    return PenFile([recording], "$1 gesture logs")
 
 
 def _rows(piece: Element, where: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:

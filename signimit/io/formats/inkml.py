@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
-from signimit.io.formats.pen_recording import PenRecording, library_from_recordings
+from signimit.io.formats.pen_clock import relative_seconds
+from signimit.io.formats.pen_recording import PenFile, PenRecording, library_from_pen_file
 from signimit.io.formats.textfile import local_name, read_xml
 from signimit.io.safe_files import replaced_file
 from signimit.strokes import Stroke, StrokeLibrary
@@ -49,7 +50,7 @@ class TraceFormat(NamedTuple):
     seconds: float = TIME_UNITS["ms"]
 
 
-def read_inkml(path: str | os.PathLike[str]) -> StrokeLibrary:
+def read_inkml(path: str | os.PathLike[str], strict: bool = False) -> StrokeLibrary:
     """Read traces with channels X, Y and perhaps T.
 
     Each trace group that holds traces, or views of traces, is one drawing; without groups all traces of the file are.
@@ -58,27 +59,44 @@ def read_inkml(path: str | os.PathLike[str]) -> StrokeLibrary:
     milliseconds unless the channel says otherwise; without T points are taken to be 10 ms apart. Pen-up traces are
     left out.
 
+    Args:
+        path: The file.
+        strict: Raise the error of the first drawing that would be left out.
+
     Raises:
         FileNotFoundError: If there is no such file.
-        FileFormatError: Names the file, the trace, and what was expected there; also for difference-encoded values and
-            for several trace formats, which are not understood.
+        FileFormatError: If no drawing can be read. Names the file, the trace, and what was expected there; also for
+            difference-encoded values and for several trace formats, which are not understood.
         MissingDependencyError: If defusedxml is not installed.
     """
+    document = read_xml(path)
+    return library_from_pen_file(path, parse_inkml(document.root, path), strict, document.findings)
+
+
+def parse_inkml(root: Element, path: str | os.PathLike[str]) -> PenFile:
+    """Find the drawings of a parsed file.
+
+    Raises:
+        FileFormatError: If it is no InkML.
+    """
     where = os.fspath(path)
-    root = read_xml(path)
     if local_name(root) != "ink":
         raise FileFormatError(where, "an ink element", f"{local_name(root)!r}")
     layout = _trace_format(root, where)
     traces = {_identity(e): e for e in root.iter() if local_name(e) == "trace"}
-    recordings = []
+    recordings, left_out = [], []
     for number, drawing in enumerate(_drawings(root)):
         place = f"{where}: drawing {number}"
-        points = [_read_trace(trace, layout, place) for trace in _traces_of(drawing.element, traces, place)]
+        try:
+            points = [_read_trace(trace, layout, place) for trace in _traces_of(drawing.element, traces, place)]
+        except FileFormatError as error:
+            left_out.append(error)
+            continue
         pieces = [np.column_stack([p[:, layout.x], p[:, layout.y] * layout.up]) for p in points]
-        stamps = None if layout.t is None else [p[:, layout.t] * layout.seconds for p in points]
+        stamps = None if layout.t is None else relative_seconds([p[:, layout.t] for p in points], layout.seconds)
         label = drawing.label or Path(where).stem
         recordings.append(PenRecording(pieces, stamps, label, drawing.writer or "unknown", place))
-    return library_from_recordings(recordings, f"InkML {os.path.basename(where)}")
+    return PenFile(recordings, f"InkML {os.path.basename(where)}", left_out=left_out)
 
 
 class _Drawing(NamedTuple):

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import os
+import warnings
 from collections.abc import Sequence
-from typing import NamedTuple
+from pathlib import Path
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
+from signimit.io.formats.import_report import FileReport, Finding, ImportReport, StrokeImportWarning
+from signimit.io.formats.pen_clock import mean_interval, piece_times, spread_ties
 from signimit.paths import step_lengths
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.validation import finite_array
 
 MOST_STEPS = 1000  # of a bridge
 SAMPLE_TIME = 0.01  # s, between points of recordings without time stamps
+Points = NDArray[np.float64]
+Times = NDArray[np.float64]
 
 
 class PenRecording(NamedTuple):
@@ -22,82 +29,162 @@ class PenRecording(NamedTuple):
 
     Attributes:
         pieces: Where the pen was while down, each of shape (T_i, 2), y up.
-        stamps: When, each of shape (T_i,), s; none if the device did not say.
+        stamps: When, each of shape (T_i,), s, or none where a piece has none; none if the device did not say.
         label: What was drawn.
         writer: Who drew it.
         where: File and place in it, for errors.
+        clock: ``"own"`` if the stamps of each piece are known to begin anew, ``"shared"`` if they need not.
+        sample_time: Time between points that have no usable stamps, s.
     """
 
-    pieces: Sequence[NDArray[np.float64]]
-    stamps: Sequence[NDArray[np.float64]] | None
+    pieces: Sequence[Points]
+    stamps: Sequence[Times | None] | None
     label: str
     writer: str
     where: str
+    clock: Literal["shared", "own"] = "shared"
+    sample_time: float = SAMPLE_TIME
 
 
-def library_from_recordings(recordings: Sequence[PenRecording], source: str) -> StrokeLibrary:
-    """Make each recording one stroke.
+class PenFile(NamedTuple):
+    """What the parser of a format found in a file.
+
+    Attributes:
+        recordings: The drawings.
+        source: What the file is, in words.
+        findings: What was repaired or assumed in parsing.
+        left_out: For each drawing that could not be parsed, the error that says why.
+        includes: Other files that were read for this one.
+    """
+
+    recordings: Sequence[PenRecording]
+    source: str
+    findings: Sequence[Finding] = ()
+    left_out: Sequence[FileFormatError] = ()
+    includes: Sequence[Path] = ()
+
+
+class MendedStroke(NamedTuple):
+    """A stroke, and what was repaired or assumed to make it one."""
+
+    stroke: Stroke
+    findings: tuple[Finding, ...]
+
+
+def library_from_pen_file(
+    path: str | os.PathLike[str], pen_file: PenFile, strict: bool = False, findings: Sequence[Finding] = ()
+) -> StrokeLibrary:
+    """Make each recording of a file one stroke, and warn of what was repaired or left out.
+
+    Args:
+        path: The file.
+        pen_file: What was found in it.
+        strict: Raise the error of the first drawing that would be left out.
+        findings: What was repaired before the file was parsed.
 
     Raises:
-        FileFormatError: Names the recording that is no stroke.
+        FileFormatError: Names the recording that is no stroke, if it is to be strict or none is left.
     """
-    strokes = tuple(stroke_from_recording(recording) for recording in recordings)
-    return StrokeLibrary(strokes, tuple(r.label for r in recordings), tuple(r.writer for r in recordings), source)
+    library, file = import_pen_file(path, "", pen_file, findings)
+    report = ImportReport((file,))
+    if report.left_out and (strict or not len(library)):
+        raise report.left_out[0]
+    if not report.flawless:
+        warnings.warn(report.summary(), StrokeImportWarning, stacklevel=3)
+    return library
+
+
+def import_pen_file(
+    path: str | os.PathLike[str], format: str, pen_file: PenFile, findings: Sequence[Finding] = ()
+) -> tuple[StrokeLibrary, FileReport]:
+    """Make each recording of a file one stroke, and report what was repaired or left out.
+
+    Args:
+        path: The file.
+        format: Its format, for the report.
+        pen_file: What was found in it.
+        findings: What was repaired before the file was parsed.
+    """
+    strokes, kept, left_out, found = [], [], list(pen_file.left_out), [*findings, *pen_file.findings]
+    for recording in pen_file.recordings:
+        try:
+            mended = mend_recording(recording)
+        except FileFormatError as error:
+            left_out.append(error)
+        else:
+            kept.append(recording)
+            strokes.append(mended.stroke)
+            found += mended.findings
+    if not strokes and not left_out:
+        left_out.append(FileFormatError(os.fspath(path), "strokes", "none"))
+    labels, writers = tuple(r.label for r in kept), tuple(r.writer for r in kept)
+    library = StrokeLibrary(tuple(strokes), labels, writers, pen_file.source)
+    report = FileReport(Path(path), format, len(strokes), tuple(found), tuple(left_out), tuple(pen_file.includes))
+    return library, report
 
 
 def stroke_from_recording(recording: PenRecording) -> Stroke:
+    """Join the pieces of a recording as `mend_recording` does, without saying what was repaired.
+
+    Raises:
+        FileFormatError: If the recording has no points, does not move, or its clock runs backwards.
+    """
+    return mend_recording(recording).stroke
+
+
+def mend_recording(recording: PenRecording) -> MendedStroke:
     """Join the pieces of a recording, with a straight line of about the median step where the pen was up.
 
-    Points without time stamps, and those of the bridges between them, are taken to be 10 ms apart. With stamps, a
-    bridge takes the time that the pen was up. Stamps that repeat, as coarse clocks do, share the time to the next one.
+    Points without usable time stamps, and those of the bridges between them, are ``recording.sample_time`` apart. With
+    stamps, a bridge takes the time that the pen was up. Pieces that are not in the order of their clock are put in
+    order; those that overlap in time, or begin anew each, are put end to end as they come, and the bridges between them
+    are crossed at the mean pace. Stamps that step back by up to 16 ms are lifted to the latest before them, and stamps
+    that repeat, as coarse clocks do, share the time to the next one.
 
     Raises:
         FileFormatError: If the recording has no points, does not move, or its clock runs backwards.
     """
     try:
-        pieces = [finite_array(piece, "points", (None, 2)) for piece in recording.pieces if len(piece)]
+        filled = [i for i, piece in enumerate(recording.pieces) if len(piece)]
+        pieces = [finite_array(recording.pieces[i], "points", (None, 2)) for i in filled]
         if not pieces:
             raise InvalidInputError("points", "at least 2", "none")
+        stamps = [None if recording.stamps is None else recording.stamps[i] for i in filled]
+        counts, own = [len(piece) for piece in pieces], recording.clock == "own"
+        timing = piece_times(stamps, counts, own, recording.sample_time, recording.where)
+        pieces = [pieces[i] for i in timing.order]
         bridges = [_bridge_steps(pieces, i) for i in range(len(pieces) - 1)]
         points = _joined(pieces, bridges)
-        if recording.stamps is None:
-            times = SAMPLE_TIME * np.arange(len(points), dtype=np.float64)
+        if timing.stamps is None:
+            times = recording.sample_time * np.arange(len(points), dtype=np.float64)
         else:
-            stamps = [np.asarray(stamp, dtype=np.float64)[:, None] for stamp in recording.stamps if len(stamp)]
-            times = spread_ties(_joined(stamps, bridges)[:, 0])
-        return Stroke(points, times - times[0])
+            interval = mean_interval(timing.stamps) or recording.sample_time
+            clocked = _end_to_end(timing.stamps, bridges, interval) if timing.own else timing.stamps
+            times = spread_ties(_joined([piece[:, None] for piece in clocked], bridges)[:, 0])
+        return MendedStroke(Stroke(points, times - times[0]), tuple(timing.findings))
     except InvalidInputError as error:
         raise FileFormatError(f"{recording.where}: {error.where}", error.expected, error.found) from None
 
 
-def _bridge_steps(pieces: Sequence[NDArray[np.float64]], i: int) -> int:
+def _end_to_end(stamps: Sequence[Times], bridges: Sequence[int], interval: float) -> list[Times]:
+    """Shift the stamps of each piece so that it begins ``bridges[i]`` intervals after the one before it ended."""
+    shifted = [stamps[0]]
+    for piece, steps in zip(stamps[1:], bridges, strict=True):
+        shifted.append(piece - piece[0] + shifted[-1][-1] + steps * interval)
+    return shifted
+
+
+def _bridge_steps(pieces: Sequence[Points], i: int) -> int:
     """Return in how many steps the gap after piece i is crossed."""
     steps = step_lengths(np.concatenate(pieces))
     median = float(np.median(steps)) or float(steps.max())
     gap = float(np.linalg.norm(pieces[i + 1][0] - pieces[i][-1]))
-    return max(1, int(min(gap / median, MOST_STEPS)))
+    return max(1, int(min(gap / median, MOST_STEPS))) if median else 1
 
 
-def _joined(pieces: Sequence[NDArray[np.float64]], bridges: Sequence[int]) -> NDArray[np.float64]:
+def _joined(pieces: Sequence[Points], bridges: Sequence[int]) -> Points:
     """Concatenate columns, interpolating ``bridges[i]`` - 1 rows between piece i and the next."""
     parts = [pieces[0]]
     for before, after, steps in zip(pieces[:-1], pieces[1:], bridges, strict=True):
         parts += [np.linspace(before[-1], after[0], steps + 1)[1:-1], after]
     return np.concatenate(parts)
-
-
-def spread_ties(stamps: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Give equal time stamps, shape (T,), equal shares of the time to the next one, 1 ms for the last.
-
-    Raises:
-        InvalidInputError: If the clock runs backwards.
-    """
-    stamps = finite_array(stamps, "time stamps", (None,))
-    back = np.flatnonzero(np.diff(stamps) < 0)
-    if len(back):
-        i = int(back[0])
-        raise InvalidInputError("time stamps", "a clock that runs forward", f"{stamps[i]:g} s then {stamps[i + 1]:g} s")
-    values, first, counts = np.unique(stamps, return_index=True, return_counts=True)
-    gaps = np.append(np.diff(values), 0.001)
-    rank = np.arange(len(stamps)) - np.repeat(first, counts)
-    return np.asarray(stamps + rank * np.repeat(gaps / counts, counts), dtype=np.float64)

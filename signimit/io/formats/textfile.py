@@ -2,16 +2,33 @@
 
 from __future__ import annotations
 
+import codecs
 import os
+import re
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from signimit.exceptions import FileFormatError, MissingDependencyError
+from signimit.io.formats.import_report import Finding
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
 MAX_BYTES = 256 * 2**20
+_BYTE_ORDER_MARKS = (
+    (codecs.BOM_UTF8, "utf-8-sig"),
+    (codecs.BOM_UTF32_LE, "utf-32"),  # before UTF-16, whose mark it begins with
+    (codecs.BOM_UTF32_BE, "utf-32"),
+    (codecs.BOM_UTF16_LE, "utf-16"),
+    (codecs.BOM_UTF16_BE, "utf-16"),
+)
+_OTHER_ENCODING = 19  # of expat's errors
+_ENCODING_ERRORS = (4, 17, _OTHER_ENCODING)  # and: invalid token, declaration not at the start
+_ENCODING = re.compile(rb"""\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)""")
+_AROUND_XML = "\ufeff \t\r\n\0\x1a"  # what may stand before or after XML: marks, blanks, ends of text
+_FIRST_ELEMENT = re.compile(
+    r"(?>[\s\ufeff]+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*(?:\[.*?\]\s*)?>)*+<([^\s/>!?]+)", re.DOTALL
+)
 
 
 def read_bytes(path: str | os.PathLike[str]) -> bytes:
@@ -42,12 +59,82 @@ def read_text(path: str | os.PathLike[str]) -> str:
         ) from None
 
 
-def read_xml(path: str | os.PathLike[str]) -> Element:
-    """Parse an XML file with defusedxml and return its root.
+def is_binary(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file holds zero bytes early on, and is no UTF-16 or UTF-32.
+
+    Raises:
+        OSError: If it cannot be read.
+    """
+    with open(path, "rb") as file:
+        head = file.read(4096)
+    return b"\0" in head and _encoding(head) == "utf-8"
+
+
+def _encoding(data: bytes) -> str:
+    """Tell the encoding of what may be text by its byte order mark, or by the zeros of its first character."""
+    marked = next((name for mark, name in _BYTE_ORDER_MARKS if data.startswith(mark)), None)
+    if marked or len(data) < 2 or (data[0] == 0) == (data[1] == 0):
+        return marked or "utf-8"
+    return "utf-16-le" if data[1] == 0 else "utf-16-be"
+
+
+class DecodedText(NamedTuple):
+    """A text file's text, and what was repaired to decode it."""
+
+    text: str
+    findings: tuple[Finding, ...] = ()
+
+
+class XmlDocument(NamedTuple):
+    """An XML file's root element, and what was repaired to parse it."""
+
+    root: Element
+    findings: tuple[Finding, ...] = ()
+
+
+def read_any_text(path: str | os.PathLike[str]) -> DecodedText:
+    """Read a text file in UTF-8, UTF-16 or UTF-32; one that is in none of them is taken for Windows-1252.
+
+    Raises:
+        FileNotFoundError: If there is no such file.
+        FileFormatError: If it is larger than 256 MiB, or not text.
+    """
+    return decode_text(read_bytes(path), os.fspath(path))
+
+
+def decode_text(data: bytes, where: str) -> DecodedText:
+    """Decode bytes as `read_any_text` does.
+
+    Raises:
+        FileFormatError: If they are not text.
+    """
+    encoding = _encoding(data)
+    try:
+        return DecodedText(data.decode(encoding))
+    except UnicodeDecodeError as error:
+        wrong = f"byte {error.object[error.start]:#x} at {error.start}"
+    if encoding != "utf-8" or b"\0" in data:
+        raise FileFormatError(where, "text", wrong)
+    text = data.decode("cp1252", "replace")
+    return DecodedText(text, (Finding(where, "text that is not UTF-8: taken for Windows-1252"),))
+
+
+def read_xml(path: str | os.PathLike[str]) -> XmlDocument:
+    """Parse an XML file with defusedxml, in any encoding, also if it is not the one that it declares.
 
     Raises:
         FileNotFoundError: If there is no such file.
         FileFormatError: If it is no well-formed XML, or declares entities.
+        MissingDependencyError: If defusedxml is not installed.
+    """
+    return parse_xml(read_bytes(path), os.fspath(path))
+
+
+def parse_xml(data: bytes, where: str) -> XmlDocument:
+    """Parse bytes as `read_xml` does.
+
+    Raises:
+        FileFormatError: If they are no well-formed XML, or declare entities.
         MissingDependencyError: If defusedxml is not installed.
     """
     try:
@@ -55,16 +142,36 @@ def read_xml(path: str | os.PathLike[str]) -> Element:
         from defusedxml.ElementTree import ParseError, fromstring
     except ImportError:
         raise MissingDependencyError("defusedxml", "strokes", "Reading XML strokes") from None
-    where = os.fspath(path)
     try:
-        root: Element = fromstring(read_bytes(path))
+        try:
+            return XmlDocument(fromstring(data))
+        except ParseError as error:  # for some reasons of the encoding, which Python knows more of
+            text, findings = decode_text(data, where) if error.code in _ENCODING_ERRORS else ("", ())
+            if not text:
+                raise
+            if error.code == _OTHER_ENCODING and not findings:
+                findings = (Finding(where, "XML in another encoding than it declares: found out"),)
+            try:
+                return XmlDocument(fromstring(text.strip(_AROUND_XML)), findings)  # of text, it ignores the declaration
+            except ParseError:
+                raise error from None
+        except ValueError:  # an encoding of several bytes a character that is not Unicode
+            declared = _ENCODING.match(data)
+            if not declared:
+                raise
+            return XmlDocument(fromstring(data.decode(declared[1].decode())))
     except ParseError as error:
         raise FileFormatError(where, "well-formed XML", str(error)) from None
     except DefusedXmlException as error:
         raise FileFormatError(where, "XML without entities", type(error).__name__) from None
     except (LookupError, ValueError) as error:
         raise FileFormatError(where, "XML in an encoding that exists", str(error)) from None
-    return root
+
+
+def root_name(text: str) -> str:
+    """Return the name, without namespace, of the first element of what may be XML, well-formed or not; or nothing."""
+    found = _FIRST_ELEMENT.match(text)
+    return found[1].rpartition(":")[2] if found else ""
 
 
 def local_name(element: Element) -> str:

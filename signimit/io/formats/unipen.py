@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from signimit.exceptions import FileFormatError
-from signimit.io.formats.pen_recording import PenRecording, library_from_recordings
-from signimit.io.formats.textfile import read_text
+from signimit.io.formats.pen_recording import PenFile, PenRecording, library_from_pen_file
+from signimit.io.formats.textfile import read_any_text
 from signimit.strokes import StrokeLibrary
 
 _SEGMENT = re.compile(r'\.SEGMENT\s+\S+\s+(?P<first>\d{1,9})(?:-(?P<last>\d{1,9}))?\s+\S+\s+"(?P<label>[^"]*)"\s*$')
@@ -34,20 +34,39 @@ class _Segment:
     pieces: list[list[tuple[float, float]]] = field(default_factory=list)
 
 
-def read_unipen(path: str | os.PathLike[str]) -> StrokeLibrary:
+def read_unipen(path: str | os.PathLike[str], strict: bool = False) -> StrokeLibrary:
     """Read UNIPEN text whose points follow the ``.SEGMENT`` that names them.
 
     The label is the segment's, the writer the second word of its ``.COMMENT`` (UCI) or what ``.WRITER_ID`` says.
     Coordinates are y up already. There are no time stamps: points are equidistant, and taken to be 10 ms apart
     (``.DT 100`` is a constant in these files; 100 ms would make a digit last 6 s). Other keywords are passed over.
 
+    Args:
+        path: The file.
+        strict: Raise the error of the first drawing that would be left out.
+
     Raises:
         FileNotFoundError: If there is no such file.
         FileFormatError: Names the file, the line and what was expected there.
     """
+    text, findings = read_any_text(path)
+    return library_from_pen_file(path, parse_unipen(text, path), strict, findings)
+
+
+def is_unipen(text: str) -> bool:
+    """Tell whether the first line is one of UNIPEN, and the pen is put down in a later one."""
+    return text.lstrip().startswith(".") and re.search(r"^\s*\.PEN_DOWN\b", text, re.MULTILINE) is not None
+
+
+def parse_unipen(text: str, path: str | os.PathLike[str]) -> PenFile:
+    """Find the drawings of a text.
+
+    Raises:
+        FileFormatError: Names the file, the line and what was expected there.
+    """
     where = os.fspath(path)
     recordings = []
-    for segment in _segments(read_text(path), where):
+    for segment in _segments(text, where):
         place = f"{where}: line {segment.line}"
         if len(segment.pieces) != segment.promised:
             raise FileFormatError(
@@ -57,7 +76,7 @@ def read_unipen(path: str | os.PathLike[str]) -> StrokeLibrary:
         recordings.append(PenRecording(pieces, None, segment.label, segment.writer, place))
     if not recordings:
         raise FileFormatError(where, 'UNIPEN text with .SEGMENT ... "label"', "no segment")
-    return library_from_recordings(recordings, f"UNIPEN {os.path.basename(where)}")
+    return PenFile(recordings, f"UNIPEN {os.path.basename(where)}")
 
 
 def _segments(text: str, where: str) -> Iterator[_Segment]:

@@ -218,7 +218,7 @@ FORMATS: Mapping[str, ExportFormat] = MappingProxyType(
         "strokes.inkml": ExportFormat(
             "application/inkml+xml",
             lambda shown, language, path: write_inkml(path, to_library(shown, language)),
-            lambda path: from_library(read_inkml(path)),
+            lambda path: from_library(read_inkml(path, strict=True)),
         ),
         "strokes.csv": ExportFormat("text/csv", _write_csv, _read_csv),
     }

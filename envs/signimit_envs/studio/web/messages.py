@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from signimit.exceptions import InvalidInputError
-from signimit.io.formats.pen_recording import spread_ties
+from signimit.io.formats.pen_clock import spread_ties
 from signimit.strokes import Stroke
 from signimit.teaching.languages import Request
 from signimit_envs.arm.scene import OBJECT_COUNTS, TABLE

@@ -85,7 +85,7 @@ def test_explicit_values_and_no_namespace_are_understood(tmp_path: Path) -> None
         ("<trace>1 2, nan 4</trace>", "points: expected finite numbers"),
         ("<trace></trace>", "points: expected at least 2, found none"),
         ("", "drawing 0: points: expected at least 2, found none"),
-        (f"{TIMED}<trace>2 0 0, 1 1 1</trace>", "a clock that runs forward"),
+        (f"{TIMED}<trace>20 0 0, 1 1 1</trace>", "a clock that runs forward"),
         (TIMED.replace('"ms"', '"h"') + "<trace>2 0 0, 1 1 1</trace>", "expected channel T in s, ms, us, found 'h'"),
         (TIMED.replace('"X"', '"F"') + "<trace>2 0 0, 1 1 1</trace>", "expected channels X and Y, found T, F, Y"),
         (f"{TIMED}{TIMED.replace('ms', 's')}<trace>1 0 0, 2 1 1</trace>", "one trace format, found 2 different"),

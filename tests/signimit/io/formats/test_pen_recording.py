@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from signimit import FileFormatError, InvalidInputError
-from signimit.io.formats.pen_recording import PenRecording, spread_ties, stroke_from_recording
+from signimit.io.formats.pen_clock import spread_ties
+from signimit.io.formats.pen_recording import PenRecording, stroke_from_recording
 
 DOWN = [np.array([(0, 0), (1, 0), (2, 0.0)]), np.array([(2, 4), (3, 4.0)])]
 

@@ -81,7 +81,7 @@ def test_broken_files_name_the_line(tmp_path: Path, old: str, new: str, match: s
     assert old in GOOD
     path = written(tmp_path, GOOD.replace(old, new))
     with pytest.raises(FileFormatError, match=match) as caught:
-        read_unipen(path)
+        read_unipen(path, strict=True)
     assert str(caught.value).startswith(str(path))
     assert "\n" not in str(caught.value)
 
