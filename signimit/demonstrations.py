@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, Self, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.archive import read_archive, write_archive
@@ -38,21 +38,21 @@ class Demonstration:
     hand: NDArray[np.float64]
     times: NDArray[np.float64]
 
-    def __post_init__(self) -> None:
+    def __init__(self, signs: Iterable[ArrayLike], objects: ArrayLike, hand: ArrayLike, times: ArrayLike) -> None:
         """Copy, check and make read-only.
 
         Raises:
             InvalidInputError: Names the field, what was expected and what was found.
         """
-        signs = tuple(moving_points(s, f"sign {i}") for i, s in enumerate(item_list(self.signs, "signs")))
-        objects = finite_array(self.objects, "objects", (None, 2))
-        if not len(objects):
+        utterance = tuple(moving_points(s, f"sign {i}") for i, s in enumerate(item_list(signs, "signs")))
+        places = finite_array(objects, "objects", (None, 2))
+        if not len(places):
             raise InvalidInputError("objects", "at least one position", "none")
-        hand = moving_points(self.hand, "hand")
-        object.__setattr__(self, "signs", signs)
-        object.__setattr__(self, "objects", objects)
-        object.__setattr__(self, "hand", hand)
-        object.__setattr__(self, "times", increasing_times(self.times, "times", len(hand)))
+        path = moving_points(hand, "hand")
+        object.__setattr__(self, "signs", utterance)
+        object.__setattr__(self, "objects", places)
+        object.__setattr__(self, "hand", path)
+        object.__setattr__(self, "times", increasing_times(times, "times", len(path)))
 
     def __repr__(self) -> str:
         """Say its sizes, e.g. ``Demonstration(signs=2, objects=3, samples=250)``."""

@@ -31,14 +31,14 @@ class Stroke:
     points: NDArray[np.float64]
     times: NDArray[np.float64]
 
-    def __post_init__(self) -> None:
+    def __init__(self, points: ArrayLike, times: ArrayLike) -> None:
         """Check and copy.
 
         Raises:
             InvalidInputError: If the stroke is not finite, too short, at rest or its times stand still.
         """
-        object.__setattr__(self, "points", moving_points(self.points, "stroke points"))
-        object.__setattr__(self, "times", increasing_times(self.times, "stroke times", len(self.points)))
+        object.__setattr__(self, "points", moving_points(points, "stroke points"))
+        object.__setattr__(self, "times", increasing_times(times, "stroke times", len(self.points)))
 
     def __len__(self) -> int:
         """Return the number of points."""
@@ -65,14 +65,19 @@ class StrokeLibrary(Sequence[Stroke]):
     writers: tuple[str, ...]
     source: str = ""
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self, strokes: Iterable[Stroke], labels: Iterable[str], writers: Iterable[str], source: str = ""
+    ) -> None:
         """Check that there is one label and one writer, both text, for each stroke.
 
         Raises:
             InvalidInputError: If there is not.
         """
-        for name, kind in (("strokes", Stroke), ("labels", str), ("writers", str)):
-            items = tuple(getattr(self, name))
+        object.__setattr__(self, "source", source)
+        given: tuple[tuple[str, Iterable[object], type], ...]
+        given = ("strokes", strokes, Stroke), ("labels", labels, str), ("writers", writers, str)
+        for name, values, kind in given:
+            items = tuple(values)
             for i, item in enumerate(items):
                 if not isinstance(item, kind):
                     raise InvalidInputError(f"stroke library: {name}", f"{kind.__name__}s", f"{item!r:.40} at {i}")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -51,12 +53,32 @@ def test_the_core_of_the_readme_understands_made_up_recordings(capsys: pytest.Ca
     assert printed.splitlines()[-1].startswith("0 1 ")
     exec(BLOCKS[3], names)
     assert "No demonstration is in doubt" in capsys.readouterr().out
-    assert names["answer"][:2] == (1, 0)
+    assert names["sure"][:2] == (1, 0)
     assert len(names["model"].labels) == 9
     exec(BLOCKS[4], names)
     assert capsys.readouterr().out == "(100, 401, 2)\n"
     last = names["tracks"].paths[:, -100:] - names["scenes"][:, None, 0]
     assert (np.hypot(*last.T).max(axis=0) < 0.2).all()  # a triangle with corners 0.1 to 0.15 m from the object
+
+
+@pytest.mark.slow
+def test_the_code_of_readme_and_docs_is_typed_as_mypy_strict_wants_it(
+    tmp_path: Path, pytestconfig: pytest.Config
+) -> None:
+    """Each page is a program, its blocks in order."""
+    pytest.importorskip("mypy", reason="types are checked with signimit[dev]")
+    programs = []
+    for page in (README, *sorted((README.parent / "docs").glob("*.md"))):
+        blocks = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+        if blocks:
+            programs.append(tmp_path / f"{page.stem.lower()}_program.py")
+            programs[-1].write_text("\n".join(blocks), encoding="utf-8")
+    assert len(programs) >= 2
+    cache = pytestconfig.cache.mkdir("mypy") if pytestconfig.cache else tmp_path / "cache"
+    config = ["--config-file", str(README.parent / "pyproject.toml"), "--cache-dir", str(cache)]
+    command = [sys.executable, "-m", "mypy", "--strict", "--ignore-missing-imports", *config, *map(str, programs)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_every_program_of_the_readme_exists() -> None:
