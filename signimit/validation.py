@@ -90,10 +90,15 @@ def increasing_times(value: ArrayLike, where: str, count: int) -> NDArray[np.flo
     still = np.flatnonzero(np.diff(times) < _LEAST_STEP)
     if len(still):
         i = int(still[0])
-        raise InvalidInputError(
-            where, "strictly increasing seconds", f"{times[i]:g} then {times[i + 1]:g} at index {i}"
-        )
+        first, second = told_apart(times[i], times[i + 1])
+        raise InvalidInputError(where, "strictly increasing seconds", f"{first} then {second} at index {i}")
     return times
+
+
+def told_apart(first: float, second: float) -> tuple[str, str]:
+    """Write two numbers with as few digits, but at least six, as show that they differ, if they do."""
+    pairs = ((f"{first:.{digits}g}", f"{second:.{digits}g}") for digits in (6, 9, 12, 17))
+    return next((pair for pair in pairs if pair[0] != pair[1]), (f"{first:g}", f"{second:g}"))
 
 
 def item_list(values: Iterable[Any], where: str) -> list[Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -115,11 +115,12 @@ class ImportReport:
         width = max(map(len, rows))
         lines = [f"{'':{width}}  files  drawings"]
         lines += [f"{row:{width}}  {files[row]:5}  {drawings[row]:8}" for row in rows]
-        places, counts = Counter[tuple[str, str]](), Counter[tuple[str, str]]()
+        counts, places = Counter[tuple[str, str]](), defaultdict[tuple[str, str], set[str]](set)
         for finding in self.findings:
-            places[finding.kind, finding.what] += 1
             counts[finding.kind, finding.what] += finding.number
-        lines += [f"{kind}: {what} ({n} in {places[kind, what]} drawings)" for (kind, what), n in counts.most_common()]
+            places[finding.kind, finding.what].add(finding.where)
+        for (kind, what), number in counts.most_common():
+            lines.append(f"{kind}: {what} ({number} in {len(places[kind, what])} drawings)")
         lines += [f"left out: {error}" for error in self.left_out[:most]]
         if len(self.left_out) > most:
             lines.append(f"left out: {len(self.left_out) - most} more")

@@ -15,14 +15,18 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError
 from signimit.io.formats.import_report import Finding
-from signimit.validation import finite_array
+from signimit.validation import finite_array, told_apart
 
 MAX_STEP_BACK = 0.016  # s: one tick of the coarsest clock in use, the 64 Hz timer of Windows; more is no jitter
-LEAST_DURATION = 0.01  # s: no hand draws anything in less
-LEAST_INTERVAL = 0.0005  # s, mean: mice are sampled at up to 1 kHz, pens at up to 400 Hz
-MAX_INTERVAL = 0.2  # s, mean, of more than `LONGEST_SPARSE`: a hand that is so slow for so long draws nothing
-LONGEST_SPARSE = 120.0  # s with the pen down
+LEAST_DURATION = 0.01  # s: no hand draws anything in less,
+LEAST_INTERVAL = 0.0005  # s, mean: nor is it sampled more often (mice up to 1 kHz, pens up to 400 Hz),
+FAST_DURATION = 0.1  # s: nor draws it anything in less that is sampled more often than once in
+FAST_INTERVAL = 0.004  # s, mean
+SLOW_DURATION = 120.0  # s with the pen down: nor draws it for longer if it is sampled less often than once in
+SLOW_INTERVAL = 0.2  # s, mean
 _ROUNDING = 1e-6  # s, by which stamps may miss a bound: milliseconds since 1970 as a float of seconds are as coarse
+_STEP_BACK = f"time stamps that step back by {1000 * MAX_STEP_BACK:g} ms or less: lifted to the one before"
+_OVERLAP = "pieces whose clock begins anew or overlaps: put behind the one before"
 Stamps = NDArray[np.float64]
 
 
@@ -31,9 +35,9 @@ class PieceTimes(NamedTuple):
 
     Attributes:
         order: Numbers of the pieces, in the order in which they were drawn.
-        stamps: Time stamps of each piece in that order, shape (T_i,), s, that do not run backwards; none if there is
-            no usable clock.
-        own: Whether each piece has a clock of its own; else they do not run backwards from piece to piece either.
+        stamps: Time stamps of each piece in that order, shape (T_i,), s, that do not run backwards within a piece; none
+            if there is no usable clock.
+        own: Whether each piece has a clock of its own.
         findings: What was repaired or assumed.
     """
 
@@ -86,23 +90,42 @@ def piece_times(
         elif len(piece) != count:
             raise InvalidInputError("time stamps", f"as many as points, {count}", f"{len(piece)}")
         raw.append(piece)
-        lifted.append(_lifted(piece, -np.inf))
+        lifted.append(_lifted(piece))
     if why := _why_no_clock(lifted):
         return PieceTimes(given_order, None, findings=[Finding(where, f"{why}: {pace}")])
-    order = None if own else _order_in_time(lifted)
-    if order is None:
-        if not own:
-            findings.append(Finding(where, "pieces that overlap in time: put end to end"))
-    else:
-        if order != given_order:
-            findings.append(Finding(where, "pieces that were out of order: put in the order of their clock"))
-        raw, lifted = [raw[i] for i in order], [lifted[i] for i in order]
-        for i, (before, after) in enumerate(pairwise(lifted)):
-            lifted[i + 1] = _lifted(after, before[-1])
-    moved = sum(int((before != after).sum()) for before, after in zip(raw, lifted, strict=True))
-    if moved:
-        findings.append(Finding(where, f"time stamps up to {1000 * MAX_STEP_BACK:g} ms back: lifted", moved))
-    return PieceTimes(order or given_order, lifted, order is None, findings)
+    if moved := sum(int((before != after).sum()) for before, after in zip(raw, lifted, strict=True)):
+        findings.append(Finding(where, _STEP_BACK, moved))
+    order = given_order if own else _order_in_time(lifted)
+    if order != given_order:
+        findings.append(Finding(where, "pieces that were out of order: put in the order of their clock"))
+    own = own or (len(lifted) > 1 and len({float(piece[0]) for piece in lifted}) == 1)
+    return PieceTimes(order, [lifted[i] for i in order], own, findings)
+
+
+def place_pieces(
+    stamps: Sequence[Stamps], own: bool, gaps: Sequence[float], where: str
+) -> tuple[list[Stamps], list[Finding]]:
+    """Shift each piece that begins before the one before it ended, or all if each has a clock of its own.
+
+    A piece that begins less than 16 ms early is not shifted: its first stamps are lifted.
+
+    Args:
+        stamps: Time stamps of each piece, shape (T_i,), T_i > 0, that do not run backwards within it, s.
+        own: Whether each piece has a clock of its own.
+        gaps: Time to leave before each piece but the first if it is shifted, s.
+        where: File and drawing, for what is found.
+    """
+    placed, shifted, lifted = [stamps[0]], 0, 0
+    for piece, gap in zip(stamps[1:], gaps, strict=True):
+        end = float(placed[-1][-1])
+        if own or end - piece[0] > MAX_STEP_BACK + _ROUNDING:
+            placed.append(piece - piece[0] + end + gap)
+            shifted += 1
+        else:
+            placed.append(np.maximum(piece, end))
+            lifted += int((piece < end).sum())
+    findings = [Finding(where, _OVERLAP, shifted)] if shifted else []
+    return placed, findings + ([Finding(where, _STEP_BACK, lifted)] if lifted else [])
 
 
 def mean_interval(stamps: Sequence[Stamps]) -> float:
@@ -115,10 +138,10 @@ def mean_interval(stamps: Sequence[Stamps]) -> float:
     return float(sum(piece[-1] - piece[0] for piece in stamps)) / max(steps, 1)
 
 
-def _lifted(stamps: Stamps, least: float) -> Stamps:
+def _lifted(stamps: Stamps) -> Stamps:
     """Lift stamps that step back a little to the latest one before them."""
     stamps = finite_array(stamps, "time stamps", (None,))
-    latest = np.maximum(np.maximum.accumulate(stamps), least)
+    latest = np.maximum.accumulate(stamps)
     back = np.flatnonzero(latest - stamps > MAX_STEP_BACK + _ROUNDING)
     if len(back):
         i = int(back[0])
@@ -128,16 +151,13 @@ def _lifted(stamps: Stamps, least: float) -> Stamps:
     return latest
 
 
-def _order_in_time(stamps: Sequence[Stamps]) -> list[int] | None:
-    """Return the order in which pieces follow each other on one clock; none if they overlap or start together."""
-    starts = [float(piece[0]) for piece in stamps]
-    if len(stamps) > 1 and len(set(starts)) == 1:
-        return None
-    for order in (list(range(len(stamps))), sorted(range(len(stamps)), key=starts.__getitem__)):
-        latest = np.maximum.accumulate([stamps[i][-1] for i in order])
-        if all(starts[i] >= end - MAX_STEP_BACK for end, i in zip(latest, order[1:], strict=False)):
+def _order_in_time(stamps: Sequence[Stamps]) -> list[int]:
+    """Return the order in which pieces follow each other on one clock, or the given one if they overlap in either."""
+    given = list(range(len(stamps)))
+    for order in (given, sorted(given, key=lambda i: float(stamps[i][0]))):
+        if all(stamps[b][0] >= stamps[a][-1] - MAX_STEP_BACK - _ROUNDING for a, b in pairwise(order)):
             return order
-    return None
+    return given
 
 
 def _why_no_clock(stamps: Sequence[Stamps]) -> str:
@@ -148,10 +168,14 @@ def _why_no_clock(stamps: Sequence[Stamps]) -> str:
     duration = interval * sum(len(piece) - 1 for piece in stamps)
     if duration == 0:
         return "a clock that stands still"
-    if duration < LEAST_DURATION - _ROUNDING or interval < LEAST_INTERVAL - _ROUNDING:
-        return "a clock too fast for a hand (seconds read as milliseconds?)"
-    if duration > LONGEST_SPARSE and interval > MAX_INTERVAL:
-        return "a clock too slow for a hand (nanoseconds read as milliseconds?)"
+    if (
+        duration < LEAST_DURATION - _ROUNDING
+        or interval < LEAST_INTERVAL - _ROUNDING
+        or (duration < FAST_DURATION - _ROUNDING and interval < FAST_INTERVAL - _ROUNDING)
+    ):
+        return "a clock too fast for a hand, as of seconds read as milliseconds"
+    if duration > SLOW_DURATION and interval > SLOW_INTERVAL:
+        return "a clock too slow for a hand, as of nanoseconds read as milliseconds"
     return ""
 
 
@@ -165,8 +189,9 @@ def spread_ties(stamps: NDArray[np.float64]) -> NDArray[np.float64]:
     back = np.flatnonzero(np.diff(stamps) < 0)
     if len(back):
         i = int(back[0])
-        raise InvalidInputError("time stamps", "a clock that runs forward", f"{stamps[i]:g} s then {stamps[i + 1]:g} s")
-    values, first, counts = np.unique(stamps, return_index=True, return_counts=True)
+        first, second = told_apart(stamps[i], stamps[i + 1])
+        raise InvalidInputError("time stamps", "a clock that runs forward", f"{first} s then {second} s")
+    values, starts, counts = np.unique(stamps, return_index=True, return_counts=True)
     gaps = np.append(np.diff(values), 0.001)
-    rank = np.arange(len(stamps)) - np.repeat(first, counts)
+    rank = np.arange(len(stamps)) - np.repeat(starts, counts)
     return np.asarray(stamps + rank * np.repeat(gaps / counts, counts), dtype=np.float64)

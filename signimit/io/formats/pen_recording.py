@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.formats.import_report import FileReport, Finding, ImportReport, StrokeImportWarning
-from signimit.io.formats.pen_clock import mean_interval, piece_times, spread_ties
+from signimit.io.formats.pen_clock import mean_interval, piece_times, place_pieces, spread_ties
 from signimit.paths import step_lengths
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.validation import finite_array
@@ -137,9 +137,9 @@ def mend_recording(recording: PenRecording) -> MendedStroke:
 
     Points without usable time stamps, and those of the bridges between them, are ``recording.sample_time`` apart. With
     stamps, a bridge takes the time that the pen was up. Pieces that are not in the order of their clock are put in
-    order; those that overlap in time, or begin anew each, are put end to end as they come, and the bridges between them
-    are crossed at the mean pace. Stamps that step back by up to 16 ms are lifted to the latest before them, and stamps
-    that repeat, as coarse clocks do, share the time to the next one.
+    order; one that overlaps in time with the one before it, or has a clock of its own, is put behind it, and the bridge
+    to it is crossed at the mean pace. Stamps that step back by up to 16 ms are lifted to the latest before them, and
+    stamps that repeat, as coarse clocks do, share the time to the next one.
 
     Raises:
         FileFormatError: If the recording has no points, does not move, or its clock runs backwards.
@@ -152,6 +152,7 @@ def mend_recording(recording: PenRecording) -> MendedStroke:
         stamps = [None if recording.stamps is None else recording.stamps[i] for i in filled]
         counts, own = [len(piece) for piece in pieces], recording.clock == "own"
         timing = piece_times(stamps, counts, own, recording.sample_time, recording.where)
+        findings = list(timing.findings)
         pieces = [pieces[i] for i in timing.order]
         bridges = [_bridge_steps(pieces, i) for i in range(len(pieces) - 1)]
         points = _joined(pieces, bridges)
@@ -159,19 +160,13 @@ def mend_recording(recording: PenRecording) -> MendedStroke:
             times = recording.sample_time * np.arange(len(points), dtype=np.float64)
         else:
             interval = mean_interval(timing.stamps) or recording.sample_time
-            clocked = _end_to_end(timing.stamps, bridges, interval) if timing.own else timing.stamps
+            gaps = [interval * steps for steps in bridges]
+            clocked, more = place_pieces(timing.stamps, timing.own, gaps, recording.where)
+            findings += [finding._replace(kind="assumed") for finding in more] if own else more
             times = spread_ties(_joined([piece[:, None] for piece in clocked], bridges)[:, 0])
-        return MendedStroke(Stroke(points, times - times[0]), tuple(timing.findings))
+        return MendedStroke(Stroke(points, times - times[0]), tuple(findings))
     except InvalidInputError as error:
         raise FileFormatError(f"{recording.where}: {error.where}", error.expected, error.found) from None
-
-
-def _end_to_end(stamps: Sequence[Times], bridges: Sequence[int], interval: float) -> list[Times]:
-    """Shift the stamps of each piece so that it begins ``bridges[i]`` intervals after the one before it ended."""
-    shifted = [stamps[0]]
-    for piece, steps in zip(stamps[1:], bridges, strict=True):
-        shifted.append(piece - piece[0] + shifted[-1][-1] + steps * interval)
-    return shifted
 
 
 def _bridge_steps(pieces: Sequence[Points], i: int) -> int:
