@@ -150,17 +150,40 @@ set_up() {
     for purpose in $purposes; do printf '%s\n' "$wanted" >"$venv/.ready-for-$purpose"; done
 }
 
+# Says what a program does and which options it has, with what is there: nothing is installed for that.
+show_help() {
+    if [ -x "$venv/bin/python" ] && "$venv/bin/python" -c 'import signimit_envs' 2>/dev/null; then
+        exec "$venv/bin/python" "$root/scripts/$what.py" "$@"
+    fi
+    python=$(find_python)
+    if [ "$what" = readme ]; then
+        set -- readme "$@"
+        what=results
+    fi
+    exec "$python" "$root/envs/signimit_envs/cli/plain_help.py" "$what" "$@"
+}
+
+usage() { sed -n '2,/^set/s/^# \{0,1\}//p' "$root/scripts/run.sh"; printf 'NAME is one of: test%s\n' "$(programs)"; }
+
 [ $# -gt 0 ] || fail "say what to run: sh scripts/run.sh NAME [options], NAME one of: test$(programs)"
 what=$1
 shift
+case $what in -h | --help) usage; exit 0 ;; esac
+help=
+for argument; do case $argument in -h | --help) help=yes ;; esac; done
 
+if [ "$what" = test ] && [ -n "$help" ] && ! "$venv/bin/python" -c 'import pytest' 2>/dev/null; then
+    usage # options of pytest are not known before it is installed
+    exit 0
+fi
 if [ "$what" = test ]; then
-    ensure_environment test
+    [ -n "$help" ] || ensure_environment test
     cd "$root"
     exec "$venv/bin/python" -m pytest -n auto "$@" # two processes, see tests/conftest.py; -n 0: one
 fi
 what=$(printf '%s' "$what" | tr - _)
 case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
 [ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test$(programs)"
+[ -z "$help" ] || show_help "$@"
 ensure_environment "$(purpose_of "$what" "${1-}")"
 exec "$venv/bin/python" "$root/scripts/$what.py" "$@"

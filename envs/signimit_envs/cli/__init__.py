@@ -11,8 +11,10 @@ import importlib
 import sys
 from collections.abc import Sequence
 
+import signimit
 from signimit.exceptions import UnknownNameError
 from signimit_envs.cli.command_line import BAD_INPUT, call_with_options, exit_codes
+from signimit_envs.cli.plain_help import plain_help
 
 COMMANDS = {
     "reproduce": "the paper's experiment: watch, learn, and obey 36 commands with a simulated arm",
@@ -32,6 +34,7 @@ COMMANDS = {
     "results": "the folder of results, measured anew, and the tables of README and docs",
     "doctor": "what works on this machine, and the line that mends the rest",
 }
+_HELP = {"-h", "--help"}
 
 
 def main(argv: Sequence[str] | None = None) -> None:
@@ -41,8 +44,10 @@ def main(argv: Sequence[str] | None = None) -> None:
         argv: The command and its arguments; left out, those of the process.
     """
     name, *arguments = list(sys.argv[1:] if argv is None else argv) or [""]
-    if name in ("-h", "--help"):
+    if name in _HELP:
         print(_overview())
+    elif name == "--version":
+        print(f"signimit {signimit.__version__}")
     elif not name:
         sys.stderr.write(f"{_overview()}\n")
         sys.exit(BAD_INPUT)
@@ -55,7 +60,15 @@ def run_command(name: str, arguments: Sequence[str]) -> None:
     with exit_codes(name, arguments):
         if name not in COMMANDS:
             raise UnknownNameError("command", name, COMMANDS)
-        module = importlib.import_module(f"signimit_envs.cli.{name.replace('-', '_')}")
+        try:
+            module = importlib.import_module(f"signimit_envs.cli.{name.replace('-', '_')}")
+            if _HELP & set(arguments):
+                importlib.import_module("tyro")
+        except ImportError:
+            if not _HELP & set(arguments):
+                raise
+            print(plain_help(name, arguments), end="")  # what a command needs is not needed to say what it does
+            return
         call_with_options(getattr(module, "SUBCOMMANDS", None) or module.main, arguments, f"signimit {name}")
 
 

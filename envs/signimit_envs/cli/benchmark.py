@@ -35,8 +35,11 @@ def run_entries(
     """Run entries on sessions, and summarise how many commands each obeyed. Goes on where a killed run stopped.
 
     Args:
-        entry: Names of entries, or your own as module:Class or file.py:Class; "all" are all registered ones.
-        splits: Names of splits; left out, all of them.
+        entry: Names of entries, or your own as module:Class or file.py:Class; "all" are all registered ones: joint,
+            paper, paper-path, paper-literal, deep-12, deep-1200, deep-plain-12, deep-plain-1200, clone-knn, clone-mlp,
+            replay-nearby, replay, oracle-grouping, oracle-focus, oracle, chance.
+        splits: Names of splits, of paper, unseen-pair, unseen-scene, unseen-style, unseen-person, word-order,
+            filler-word, many, few, noisy, ambiguous, counterfactual; left out, all of them.
         sessions: How many of each split; the first 20 are shipped, more are composed.
         first_seed: Number of the first session.
         engine: Where sessions run: on the processors of this machine, or on a dask.distributed cluster.

@@ -70,10 +70,11 @@ def call_with_options(
         return
     import tyro
 
+    config = (tyro.conf.OmitArgPrefixes,)  # of a group of options only the options are typed
     if callable(command):
-        tyro.cli(command, args=argv, prog=program)
+        tyro.cli(command, args=argv, prog=program, config=config)
     else:
-        tyro.extras.subcommand_cli_from_dict(dict(command), args=argv, prog=program)
+        tyro.extras.subcommand_cli_from_dict(dict(command), args=argv, prog=program, config=config)
 
 
 def _exit_on_signal(number: int, frame: FrameType | None) -> None:

@@ -30,8 +30,8 @@ def main(
         demonstrations: Demonstrations as `make-demonstrations` and DemonstrationSet.save write them.
         prototypes: Stroke library with the prototype signs; the methods "paper" and "paper-literal" need it.
         labels: Which signs of that library are prototypes; the first stroke of each is taken.
-        method: How to learn.
-        policy: Kind of policy for the responses.
+        method: How to learn: joint, paper, or paper-literal, the paper's algorithm as it is printed.
+        policy: Kind of policy for the responses: path-following, knn, ilo-gmr, gmr or dmp.
         seed: Of what the method draws at random.
         out: Model file to write.
         why: Picture of the reasons to write, with the default method: probabilities, lexicon, evidence.

@@ -31,8 +31,8 @@ def main(
         seed: Decides people, scenes and everything else that is drawn.
         attempts: How often each request is made.
         seconds: How long each episode takes.
-        method: How to learn.
-        policy: Kind of policy that moves the hand.
+        method: How to learn: joint, paper or paper-literal.
+        policy: Kind of policy that moves the hand: path-following, knn, ilo-gmr, gmr or dmp.
         overwrite: Replace the file if it is there.
     """
     check_vacant_file(out, overwrite)

@@ -11,7 +11,7 @@ import numpy as np
 from signimit.io.safe_files import whole_files
 from signimit.learners import DEFAULT_METHOD
 from signimit.policies import DEFAULT_POLICY
-from signimit.teaching.people.choosing import Source, choose_people
+from signimit_envs.cli.options import SYNTHETIC_PEOPLE, PeopleOptions
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.sessions.report import restarts_line, session_report, session_table
 from signimit_envs.sessions.session import SessionPlan, SessionResult, run_session
@@ -27,10 +27,7 @@ def main(
     policy: str = DEFAULT_POLICY,
     attempts: int = 4,
     seconds: float = 10.0,
-    signs: Path | None = None,
-    signer: str | None = None,
-    movements: Path | None = None,
-    mover: str | None = None,
+    people: PeopleOptions = SYNTHETIC_PEOPLE,
     video: bool = True,
 ) -> None:
     """Watch 12 demonstrations, learn, and obey 36 commands with a simulated arm, four for each pair of signs, twice.
@@ -43,14 +40,11 @@ def main(
         out: Folder for the results.
         seed: Decides people, scenes and everything else that is drawn. 0 was chosen by nobody; 35 is the session in
             which the paper's figures come out; `sessions` shows what other seeds give.
-        method: How our imitator learns.
-        policy: Kind of policy that moves the hand of our imitator.
+        method: How our imitator learns: joint, paper or paper-literal.
+        policy: Kind of policy that moves the hand of our imitator: path-following, knn, ilo-gmr, gmr or dmp.
         attempts: How often each of the nine pairs of signs is asked for.
         seconds: How long the arm moves each time.
-        signs: Stroke library of real people (see `import-strokes`) who make the signs; left out, a synthetic person.
-        signer: Writer of that library; left out, one is drawn.
-        movements: Stroke library of real people who show the movements; left out, a synthetic person.
-        mover: Writer of that library; left out, one is drawn.
+        people: Who makes the signs and who shows the movements.
         video: Whether to make the videos.
     """
     from tqdm import tqdm
@@ -59,11 +53,9 @@ def main(
 
     ours = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
     plans = {"the paper": ours.as_in_paper(), "ours": ours}
-    people = choose_people(
-        ours.language, np.random.default_rng([seed, 1]), Source(signs, signer), Source(movements, mover)
-    )
-    print(f"Session {seed}. The signs are made by {people.names[0]}, the movements by {people.names[1]}.")
-    session = ours.compose(people)
+    chosen = people.choose(ours.language, np.random.default_rng([seed, 1]))
+    print(f"Session {seed}. The signs are made by {chosen.names[0]}, the movements by {chosen.names[1]}.")
+    session = ours.compose(chosen)
     with whole_files(out) as folder:
         results = {
             name: run_session(plan, session, partial(tqdm, desc=f"obeying, {name}", unit="command"))
@@ -72,7 +64,7 @@ def main(
         for name, result in results.items():
             print(f"\n{name.capitalize()}: {result.model.summary()}")
         print(f"\n{session_table(results)}\n\n{restarts_line(results['the paper'])}\n")
-        text = json.dumps(session_report(results, people), indent=1, allow_nan=False)
+        text = json.dumps(session_report(results, chosen), indent=1, allow_nan=False)
         (folder / "results.json").write_text(text + "\n", encoding="utf-8")
         write_figures(results["the paper"], results["ours"], folder)
         if video:

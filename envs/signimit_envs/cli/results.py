@@ -60,7 +60,8 @@ def make_results(
     if its commands can.
 
     Args:
-        names: Which measurements; left out, all that can be made of what is given.
+        names: Which measurements, of sessions, real-people, benchmark, policies, judge, paper-conditions, cells,
+            asking, people, signs, growth, throughput, cost; left out, all that can be made of what is given.
         signs: Digits of real people: pendigits-orig.tra and .tes of UCI, or libraries made of them.
         movements: Shapes of real people: the folder xml_logs of the $1 recogniser, or a library made of it.
         out: Folder of results.

@@ -32,8 +32,8 @@ def main(
     Args:
         sessions: How many.
         first_seed: Seed of the first; the others follow.
-        method: How to learn; "paper" is the paper.
-        policy: Kind of policy that moves the hand; "knn" is the paper's.
+        method: How to learn: joint, paper or paper-literal.
+        policy: Kind of policy that moves the hand: path-following, knn, which is the paper's, ilo-gmr, gmr or dmp.
         attempts: How often each of the nine pairs of signs is asked for in a session.
         seconds: How long the arm moves each time.
         out: Folder for sessions.json.

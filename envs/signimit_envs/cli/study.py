@@ -42,6 +42,7 @@ from signimit.io.safe_files import Record, read_records, whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.options import ALL_CELLS, CellOptions
 from signimit_envs.cli.study_judge import study_judge
 from signimit_envs.cli.study_paper import compare_conditions
 from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
@@ -50,34 +51,19 @@ OUT = Path("out/study")
 UNDERSTOOD = 0.95  # share of commands that a lesson shall come to
 
 
-def cells(
-    *,
-    sessions: int = 20,
-    first_seed: int = 0,
-    signs: Path | None = None,
-    movements: Path | None = None,
-    only: str = "",
-    workers: int = 0,
-    out: Path = OUT,
-) -> None:
+def cells(plan: CellOptions = ALL_CELLS) -> None:
     """Compare the default learner with all baselines, cell by cell. Goes on where a killed run stopped.
 
     Args:
-        sessions: How many of each cell.
-        first_seed: Seed of the first; the others follow.
-        signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
-        movements: Stroke library of real people who draw movements.
-        only: Run only cells whose names contain this.
-        workers: Processes; left out, one less than there are processors.
-        out: Folder for what is written.
+        plan: Which cells, how often, and where.
     """
     from signimit.plots.benchmark import draw_cells
 
-    recordings = load_recordings(signs, movements)
-    chosen = [condition for condition in study_conditions(recordings) if only in condition.name]
-    seeds = range(first_seed, first_seed + sessions)
-    rows = tabulate(run_missing(run_session, chosen, seeds, workers, out / "sessions.jsonl"))
-    with whole_files(out) as folder:
+    recordings = load_recordings(plan.signs, plan.movements)
+    chosen = plan.choose(study_conditions(recordings))
+    seeds = plan.seeds
+    rows = tabulate(run_missing(run_session, chosen, seeds, plan.workers, plan.out / "sessions.jsonl"))
+    with whole_files(plan.out) as folder:
         write_csv(folder / "cells.csv", MethodScore._fields, rows)
         (folder / "cells.md").write_text(shares_table(rows) + "\n", encoding="utf-8")
         sources = [recordings.signs.source, recordings.movements.source] if recordings else ["synthetic"]
@@ -89,35 +75,20 @@ def cells(
         print(f"{cell}: {method} was right in {theirs} sessions, {OURS} in {ours}")
 
 
-def asking(
-    *,
-    sessions: int = 20,
-    first_seed: int = 0,
-    signs: Path | None = None,
-    movements: Path | None = None,
-    only: str = "",
-    workers: int = 0,
-    out: Path = OUT,
-) -> None:
+def asking(plan: CellOptions = ALL_CELLS) -> None:
     """Measure how much sooner a learner understands that asks. Goes on where a killed run stopped.
 
     Args:
-        sessions: How many lessons of each cell.
-        first_seed: Seed of the first; the others follow.
-        signs: Stroke library of real people who make signs; with movements, it adds the cells of real people.
-        movements: Stroke library of real people who draw movements.
-        only: Run only cells whose names contain this.
-        workers: Processes; left out, one less than there are processors.
-        out: Folder for what is written.
+        plan: Which cells, how often, and where.
     """
     from signimit.plots.benchmark import draw_lessons
 
-    recordings = load_recordings(signs, movements)
-    chosen = [condition for condition in asking_conditions(recordings) if only in condition.name]
-    seeds = range(first_seed, first_seed + sessions)
-    rows = tabulate_lessons(run_missing(run_lessons, chosen, seeds, workers, out / "lessons.jsonl"))
+    recordings = load_recordings(plan.signs, plan.movements)
+    chosen = plan.choose(asking_conditions(recordings))
+    seeds = plan.seeds
+    rows = tabulate_lessons(run_missing(run_lessons, chosen, seeds, plan.workers, plan.out / "lessons.jsonl"))
     needed = demonstrations_needed(rows, UNDERSTOOD)
-    with whole_files(out) as folder:
+    with whole_files(plan.out) as folder:
         write_csv(folder / "asking.csv", LessonRow._fields, rows)
         facts = {"seeds": [seeds[0], seeds[-1]], f"demonstrations until {UNDERSTOOD:.0%} are understood": needed}
         write_facts(folder / "asking.json", facts)

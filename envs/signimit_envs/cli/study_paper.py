@@ -54,7 +54,8 @@ def compare_conditions(
     """
     levels = [level for level in study_levels() if only in level.factor]
     if not levels:
-        raise InvalidInputError("only", "part of the name of a factor", f"{only!r}")
+        factors = dict.fromkeys(level.factor for level in study_levels())
+        raise InvalidInputError("only", f"part of the name of a factor ({'; '.join(factors)})", f"{only!r}")
     libraries = [None] if movers is None else [None, StrokeLibrary.load(movers)]
     results: list[Result] = []
     for library in libraries:

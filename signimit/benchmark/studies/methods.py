@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import importlib
 import warnings
 from collections.abc import Callable
 from functools import cached_property
+from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +21,6 @@ from signimit.learners.joint.drawing_distance import compare_drawings, make_draw
 from signimit.signs import SignSpace
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit.teaching.sessions import Session
-
-try:
-    from sklearn.cluster import HDBSCAN, AffinityPropagation, SpectralClustering
-except ImportError:
-    raise MissingDependencyError("scikit-learn", "study", "Comparing with clustering methods") from None
 
 Labels = NDArray[np.int64]
 Table = NDArray[np.float64]
@@ -56,6 +53,13 @@ class SharedDistances:
         return space.embed_all([s for d in demos for s in d.signs]).reshape(len(demos), -1, len(space.prototypes))
 
 
+def _sklearn_cluster() -> ModuleType:
+    try:
+        return importlib.import_module("sklearn.cluster")
+    except ImportError:
+        raise MissingDependencyError("scikit-learn", "study", "Comparing with clustering methods") from None
+
+
 Cluster = Callable[[Table, int, int], Labels]
 
 
@@ -64,7 +68,11 @@ def by_affinity_propagation(gamma: Table, true_count: int, seed: int) -> Labels:
     table = _log(gamma)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found = AffinityPropagation(affinity="precomputed", damping=0.9, max_iter=1000, random_state=seed).fit(table)
+        found = (
+            _sklearn_cluster()
+            .AffinityPropagation(affinity="precomputed", damping=0.9, max_iter=1000, random_state=seed)
+            .fit(table)
+        )
     return _noise_alone(found.labels_)
 
 
@@ -81,7 +89,11 @@ def by_eigengap(gamma: Table, true_count: int, seed: int) -> Labels:
         return np.zeros(len(gamma), dtype=np.int64)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        found = SpectralClustering(n_clusters=count, affinity="precomputed", random_state=seed).fit(weights)
+        found = (
+            _sklearn_cluster()
+            .SpectralClustering(n_clusters=count, affinity="precomputed", random_state=seed)
+            .fit(weights)
+        )
     return _noise_alone(found.labels_)
 
 
@@ -90,7 +102,7 @@ def by_hdbscan(gamma: Table, true_count: int, seed: int) -> Labels:
 
     Groups have two members or more; what it calls noise is alone.
     """
-    found = HDBSCAN(metric="precomputed", min_cluster_size=2, copy=True).fit(_distances(gamma))
+    found = _sklearn_cluster().HDBSCAN(metric="precomputed", min_cluster_size=2, copy=True).fit(_distances(gamma))
     return _noise_alone(found.labels_)
 
 

@@ -87,6 +87,25 @@ def test_data_go_to_csv_and_back_to_the_same_bytes(
     assert "every state is as recorded" in run("replay", tmp_path / "r-tables")
 
 
+def test_for_lerobot_nothing_is_filmed_that_was_not_asked_for(
+    run: Any, recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("pyarrow", reason="LeRobot needs signimit[lerobot]")
+
+    def film(*_: object) -> None:
+        raise AssertionError("nobody asked for a film")
+
+    monkeypatch.setattr("signimit_envs.recording.formats.lerobot.recordings.film_states", film)
+    assert run("convert", recorded, tmp_path / "plain", "--to", "lerobot").count("\n") == 1
+    assert not list(tmp_path.rglob("*.mp4"))
+
+
+def test_cameras_are_for_lerobot_only(run: Any, recorded: Path, tmp_path: Path) -> None:
+    said = run.refusal("convert", recorded, tmp_path / "tables", "--to", "csv", "--cameras", "top")
+    assert "--cameras: expected recorded episodes, and --to lerobot, found Recording(" in said
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.mark.parametrize(
     ("name", "arguments", "complaint"),
     [

@@ -93,7 +93,9 @@ def test_nothing_but_this_program_writes_results_unless_told_to() -> None:
     for module in (benchmark, study, timing):
         commands += module.SUBCOMMANDS.values()
     for command in commands:
-        assert inspect.signature(command).parameters["out"].default.parts[0] == "out", command
+        parameters = inspect.signature(command).parameters
+        out = parameters["out"].default if "out" in parameters else parameters["plan"].default.out
+        assert out.parts[0] == "out", command
 
 
 def test_a_measurement_is_published_when_it_is_complete(

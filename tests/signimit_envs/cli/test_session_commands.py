@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,18 @@ def test_demonstrations_that_are_made_can_be_learned_from(run: Any, demonstratio
     assert model.summary() in said
     truth = json.loads((demonstrations / "truth.json").read_text())["demonstrations"]
     assert len(truth) == len(si.DemonstrationSet.load(demonstrations / "demonstrations.npz")) == 12
+
+
+def test_the_next_command_that_is_recommended_is_that_of_the_readme_and_runs(
+    run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    program, *words = shlex.split(run("make-demonstrations").splitlines()[-1])
+    assert [program, *words[:2]] == ["python", "-m", "signimit"]
+    run(*words[2:])
+    assert {"model.npz", "why.png"} <= {file.name for file in tmp_path.iterdir()}
+    readme = Path(__file__).parents[3] / "README.md"
+    assert not readme.is_file() or shlex.join(words[2:]) in readme.read_text(encoding="utf-8")
 
 
 @pytest.mark.slow
