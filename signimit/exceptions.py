@@ -9,9 +9,23 @@ from __future__ import annotations
 import shlex
 import sys
 from collections.abc import Iterable
+from typing import Any
 
 
-class SignimitError(Exception):
+class _ErrorType(type):
+    """Type of errors, by which ``type(error)(error)`` is the error again.
+
+    So Gymnasium's `AsyncVectorEnv` raises what was raised in another process; with facts for arguments that would be a
+    TypeError.
+    """
+
+    def __call__(cls, *facts: Any, **named: Any) -> Any:
+        if len(facts) == 1 and not named and type(facts[0]) is cls:
+            return facts[0]
+        return super().__call__(*facts, **named)
+
+
+class SignimitError(Exception, metaclass=_ErrorType):
     """Base of every error that signimit raises on purpose.
 
     Its facts are its ``args``, so that an error survives the way back from another process.

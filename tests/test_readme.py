@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 
 README = Path(__file__).parent.parent / "README.md"
 if not README.is_file():

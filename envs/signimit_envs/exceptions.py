@@ -14,6 +14,10 @@ class RenderingError(SignimitError, RuntimeError):
     """
 
     def __init__(self, reason: str, remedy: str) -> None:
-        """Keep both facts and make the sentence."""
+        """Keep both facts."""
         self.reason, self.remedy = reason, remedy
-        super().__init__(f"Cannot render: {reason}. {remedy}")
+        super().__init__(reason, remedy)
+
+    def __str__(self) -> str:
+        """Return the sentence, with what to do."""
+        return f"Cannot render: {self.reason}. {self.remedy}"

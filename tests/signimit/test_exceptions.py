@@ -40,3 +40,9 @@ def test_a_complaint_can_be_told_from_further_out() -> None:
     error = si.FileFormatError("hand", "numbers", "text").inside("demonstration 3")
     assert type(error) is si.FileFormatError
     assert error.where == "demonstration 3: hand"
+
+
+@pytest.mark.parametrize(("error", "builtin", "sentence"), ERRORS)
+def test_an_error_of_a_worker_is_raised_as_it_was(error: si.SignimitError, builtin: type, sentence: str) -> None:
+    """Gymnasium's AsyncVectorEnv calls the class of what a worker raised with what it raised."""
+    assert type(error)(error) is error

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
@@ -28,17 +30,25 @@ class Arm:
         self.object_bodies = object_bodies(model)
         self._site = model.site("hand").id
         self._jacobian = np.zeros((3, model.nv))
-        self._planar_jacobian = self._jacobian[:2]
-        # Live views: to fetch them from the data in every control step would cost more than to read them.
-        self.hand = self.data.site_xpos[self._site, :2]
-        self._qpos, self._qvel, self._ctrl = self.data.qpos, self.data.qvel, self.data.ctrl
         self._ranges = model.jnt_range.tolist()
-        self._warnings = self.data.warning.number
+        self._take_views()
         # MuJoCo logs only the first warning of a kind. It is made to think that it has, since the arm itself says what
         # went wrong; when the physics blows up, MuJoCo resets the data and with them these numbers.
         self._already_logged = [1] * len(self._warnings)
         self._objects = np.zeros((len(self.object_bodies), 2))
         self._last_joints: list[float] = self._qpos.tolist()
+
+    def _take_views(self) -> None:
+        """Take live views: to fetch them from the data in every control step would cost more than to read them."""
+        self.hand = self.data.site_xpos[self._site, :2]
+        self._qpos, self._qvel, self._ctrl = self.data.qpos, self.data.qvel, self.data.ctrl
+        self._warnings = self.data.warning.number
+        self._planar_jacobian = self._jacobian[:2]
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Become a copy: what copying made of the views are arrays that follow nothing."""
+        self.__dict__.update(state)
+        self._take_views()
 
     def place(self, objects: NDArray[np.float64], joints: NDArray[np.float64]) -> None:
         """Put objects at positions, shape (O, 2), m, and the arm, at rest, to joint angles, shape (3,), rad."""

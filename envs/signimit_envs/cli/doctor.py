@@ -16,8 +16,10 @@ from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.timing.environments import time_frames
+from signimit_envs.video.backend import choose_backend
 from signimit_envs.video.mp4 import ffmpeg_version
-from signimit_envs.video.rendering import choose_backend, has_display, renderer_name
+from signimit_envs.video.rendering import renderer_name
+from signimit_envs.video.window import opens_windows
 
 _NEEDED = ("signimit", "mujoco", "mink", "gymnasium", "numpy", "scipy", "imageio", "imageio-ffmpeg")
 _OPTIONAL = {
@@ -134,8 +136,10 @@ def check_video() -> list[Finding]:
 
 
 def check_window() -> list[Finding]:
-    """Look for a display."""
-    window = "render_mode='human' opens one" if has_display() else "no display: only render_mode='rgb_array' (optional)"
+    """Look for a display that opens windows."""
+    window = (
+        "render_mode='human' opens one" if opens_windows() else "no display: only render_mode='rgb_array' (optional)"
+    )
     return [Finding("window", True, window)]
 
 

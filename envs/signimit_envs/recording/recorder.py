@@ -33,6 +33,10 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
         env = EpisodeRecorder(gym.make("signimit/TabletopHand-v0"))
         ...  # reset and step as ever
         save_recording("episodes.npz", env.recording)
+
+    An episode ends where it is terminated or truncated, or else by a reset. The next one begins with a reset, also with
+    one that `gymnasium.wrappers.Autoreset` inside does in the place of a step. Steps after the end and before a reset
+    belong to no episode, and are not recorded.
     """
 
     def __init__(self, env: gym.Env[Any, Any]) -> None:
@@ -52,7 +56,8 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
         arm: Any = env.unwrapped
         self._model, self._data = arm.model, arm.data
         self._finished: list[RecordedEpisode] = []
-        self._draft: _Draft | None = None
+        self._draft: _Draft | None = None  # of the current episode; none after its end
+        self._ready = False  # whether the environment was reset
 
     @property
     def recording(self) -> Recording:
@@ -66,29 +71,51 @@ class EpisodeRecorder(gym.Wrapper[Any, Any, Any, Any]):
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Start an episode; arguments and results are the environment's."""
-        if self._draft and self._draft.actions:
-            self._finished.append(self._draft.episode())
-        self._draft = None
+        self._finish()
+        self._ready = False
         observation, info = self.env.reset(seed=seed, options=options)
-        self._draft = _Draft(seed)
-        self._draft.see(observation, info, self._state())
+        self._begin(seed, observation, info)
         return observation, info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
         """Do a control step; arguments and results are the environment's.
 
         Raises:
-            InvalidInputError: If there was no reset, or the last one failed.
+            InvalidInputError: If there was no reset, or the last one failed, or a wrapper inside has reset the
+                environment before the step's last state was seen.
         """
-        draft, given = self._draft, np.array(action)
-        if draft is None:
+        if not self._ready:
             raise InvalidInputError("recorder", "a reset before the first step", "none")
+        given = np.array(action)
         observation, reward, terminated, truncated, info = self.env.step(action)
-        draft.see(observation, info, self._state())
-        draft.actions.append(given)
-        draft.controls.append(self._data.ctrl.copy())
-        draft.outcomes.append((float(reward), bool(terminated), bool(truncated)))
+        over, draft = bool(terminated or truncated), self._draft
+        # A reset sets the clock to 0, and so does the arm when the physics blows up.
+        was_reset = self._data.time == 0.0 and not info.get("physics_error")
+        if draft is None:
+            if was_reset and not over:
+                self._begin(None, observation, info)
+        elif was_reset:
+            self._finish()
+            expected = "to be inside of wrappers that reset an environment in the step that ends an episode"
+            raise InvalidInputError("recorder", expected, "one outside")
+        else:
+            draft.see(observation, info, self._state())
+            draft.actions.append(given)
+            draft.controls.append(self._data.ctrl.copy())
+            draft.outcomes.append((float(reward), bool(terminated), bool(truncated)))
+            if over:
+                self._finish()
         return observation, reward, terminated, truncated, info
+
+    def _begin(self, seed: int | None, observation: Any, info: dict[str, Any]) -> None:
+        self._draft, self._ready = _Draft(seed), True
+        self._draft.see(observation, info, self._state())
+
+    def _finish(self) -> None:
+        """Keep the episode so far, if it has a step."""
+        if self._draft and self._draft.actions:
+            self._finished.append(self._draft.episode())
+        self._draft = None
 
     def _state(self) -> NDArray[np.float64]:
         state = np.empty(mujoco.mj_stateSize(self._model, STATE_SPEC))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit import InvalidInputError, UnknownNameError
-from signimit.teaching.languages import Language
+from signimit.teaching.languages import Language, Request
 from signimit.teaching.people.choosing import Source
 from signimit_envs.arm.arm import Arm
 from signimit_envs.arm.inverse_kinematics import HandController
@@ -22,7 +22,8 @@ from signimit_envs.tabletop.people import choose_tabletop_people
 from signimit_envs.tabletop.reset_options import draw_episode_start
 from signimit_envs.tabletop.rewards import make_reward
 from signimit_envs.tabletop.success import SuccessDetector
-from signimit_envs.video.rendering import OffscreenView, WindowView, has_display
+from signimit_envs.video.rendering import OffscreenView
+from signimit_envs.video.window import WindowView, opens_windows
 
 _START_TOLERANCE = 1e-3  # m; a start that inverse kinematics miss by more is out of the arm's reach
 _CAMERAS = ("perspective", "top")
@@ -67,7 +68,9 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
 
         ``obs_type="state_pixels"``: the ``Dict`` with that picture as ``pixels``.
 
-        Pictures need OpenGL; without one the first reset raises a `RenderingError`. `render` shows the scene alone:
+        Pictures need OpenGL; without one the first reset raises a `RenderingError`, and so does a picture in another
+        thread than the first, or in a process that was forked off after one (give workers ``context="spawn"``). A deep
+        copy or a pickle goes on as the original does, with a renderer of its own. `render` shows the scene alone:
         with `gymnasium.wrappers.AddRenderObservation` say ``render_only=False``, or the signs are not observed.
 
     Reward:
@@ -125,7 +128,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
     """
 
     metadata: dict[str, Any] = {  # noqa: RUF012 -- gymnasium declares it so
-        "render_modes": list(_MODES) if has_display() else ["rgb_array"],
+        "render_modes": list(_MODES),
         "render_fps": CONTROL_RATE,
     }
     max_hand_speed: ClassVar[float] = MAX_HAND_SPEED
@@ -153,6 +156,8 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
             raise UnknownNameError("render mode", render_mode, _MODES)
         if camera not in _CAMERAS:
             raise UnknownNameError("camera", camera, _CAMERAS)
+        if not opens_windows():  # the class names all modes, or Gymnasium would draw "human" itself, with pygame
+            self.metadata = {**self.metadata, "render_modes": ["rgb_array"]}
         self.render_mode = render_mode
         spoken = choose_language(language, objects, movements)
         self._arm = Arm(compile_scene(spoken.objects))
@@ -165,6 +170,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         self.action_space = gym.spaces.Box(-1.0, 1.0, (self._control.size,), np.float32)
         self._observer = make_observer(obs_type, self._arm, spoken.words, CameraView(camera, *size))
         self.observation_space = self._observer.space
+        self._request: Request | None = None  # before the first reset
         self._success = SuccessDetector(self.people.templates)
         self._reward = make_reward(reward, discount)
         self._camera = camera
@@ -203,8 +209,10 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
             action: Within [-1, 1]; what is beyond is clipped.
 
         Raises:
-            InvalidInputError: If the action has another shape or is not finite.
+            InvalidInputError: If there was no reset, or the action has another shape or is not finite.
         """
+        if self._request is None:
+            raise InvalidInputError("environment", "a reset before the first step", "none")
         arm = self._arm
         command = self._control.command(checked_action(action, self._control.size), self.data.qpos)
         error = arm.track(command.velocities)

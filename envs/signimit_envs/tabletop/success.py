@@ -25,7 +25,6 @@ class PathRecord:
     def __init__(self) -> None:
         """Start empty."""
         self._buffer = np.empty((2 * WINDOW, 2))
-        self._complex = self._buffer.view(np.complex128)[:, 0]
         self._count = 0
 
     def clear(self) -> None:
@@ -48,7 +47,7 @@ class PathRecord:
     @property
     def latest_complex(self) -> NDArray[np.complex128]:
         """The same as x + iy, shape (T,); a view."""
-        return self._complex[max(0, self._count - WINDOW) : self._count]
+        return self.latest.view(np.complex128)[:, 0]
 
 
 class SuccessDetector:

@@ -1,7 +1,9 @@
 """Pictures and films of the scene.
 
 ================== =========================================================================
-``rendering``      OpenGL: which backend works, `OffscreenView` and `WindowView`
+``backend``        which OpenGL backend works
+``rendering``      `OffscreenView`: pictures by OpenGL
+``window``         `WindowView`: MuJoCo's viewer, where a display opens one
 ``storyboard``     `Shot`: what each frame of a film of a session shows, not drawn yet
 ``scene_renderer`` `SceneRenderer`: the scene of a shot, with trails and hands
 ``overlays``       captions, cards and signs

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import closing
-from typing import NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +28,7 @@ class Film(NamedTuple):
 
     Attributes:
         frames: Frames, each (height, width, 3); taking the first raises a `RenderingError` if there is no OpenGL.
+            A copy goes on from where the original is.
         length: Number of frames.
     """
 
@@ -42,7 +43,8 @@ def film_story(result: SessionResult) -> Film:
 
 def film_shots(shots: Sequence[Shot], objects: int) -> Film:
     """Film shots of scenes with ``objects`` objects, in frames of shape (544, 960, 3)."""
-    return Film(_draw_shots(shots, objects), len(shots))
+    renderer = SceneRenderer(objects, *SCENE_SIZE, orthographic=True)
+    return Film(_DrawnFrames(_draw_shot, shots, renderer), len(shots))
 
 
 def film_grid(result: SessionResult) -> Film:
@@ -52,29 +54,41 @@ def film_grid(result: SessionResult) -> Film:
         first.setdefault(reproduction.command.request, reproduction)
     steps = min(len(r.answer.path) for r in first.values())
     ends = range(1, min(steps, round(GRID_SECONDS * CONTROL_RATE)) + 1, STRIDE)
-    return Film(_draw_grid(list(first.values()), result.plan.language, ends), len(ends))
+    language = result.plan.language
+    renderer = SceneRenderer(language.objects, TILE, TILE, orthographic=True)
+    return Film(_DrawnFrames(partial(_draw_tiles, list(first.values()), language), ends, renderer), len(ends))
 
 
-def _draw_shots(shots: Sequence[Shot], objects: int) -> Iterator[Frame]:
-    """Draw shots: signs to the left, the scene from above to the right, the caption below."""
+class _DrawnFrames(Iterator[Frame]):
+    """Iterator over frames that are drawn as they are taken; unlike a generator it can be copied."""
+
+    def __init__(self, draw: Callable[[Any, SceneRenderer], Frame], moments: Sequence[Any], renderer: SceneRenderer):
+        self._draw, self._moments, self._renderer = draw, moments, renderer
+        self._count = 0
+
+    def __next__(self) -> Frame:
+        if self._count == len(self._moments):
+            self._renderer.close()
+            raise StopIteration
+        self._count += 1
+        return self._draw(self._moments[self._count - 1], self._renderer)
+
+
+def _draw_shot(shot: Shot, renderer: SceneRenderer) -> Frame:
+    """Draw a shot: signs to the left, the scene from above to the right, the caption below."""
     width, height = SIGNS_WIDTH + SCENE_SIZE[0], SCENE_SIZE[1]
-    with closing(SceneRenderer(objects, *SCENE_SIZE, orthographic=True)) as renderer:
-        for shot in shots:
-            caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
-            if shot.card:
-                yield np.vstack([draw_card((width, height), shot.card), caption])
-            else:
-                signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
-                yield np.vstack([np.hstack([signs, renderer.picture(shot)]), caption])
+    caption = draw_caption((width, CAPTION_HEIGHT), shot.phase, shot.caption)
+    if shot.card:
+        return np.vstack([draw_card((width, height), shot.card), caption])
+    signs = draw_signs((SIGNS_WIDTH, height), shot.signs, shot.boxes)
+    return np.vstack([np.hstack([signs, renderer.picture(shot)]), caption])
 
 
-def _draw_grid(reproductions: Sequence[Reproduction], language: Language, ends: range) -> Iterator[Frame]:
-    """Draw the grid, one frame for each number of control steps in ``ends``."""
-    with closing(SceneRenderer(language.objects, TILE, TILE, orthographic=True)) as renderer:
-        for end in ends:
-            tiles = [_draw_tile(r, end, language, renderer) for r in reproductions]
-            rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
-            yield np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
+def _draw_tiles(reproductions: Sequence[Reproduction], language: Language, end: int, renderer: SceneRenderer) -> Frame:
+    """Draw the grid as it is after ``end`` control steps."""
+    tiles = [_draw_tile(r, end, language, renderer) for r in reproductions]
+    rows = np.array(tiles).reshape(len(language.movements), language.objects, TILE, TILE, 3)
+    return np.ascontiguousarray(rows.swapaxes(1, 2).reshape(len(rows) * TILE, -1, 3))
 
 
 def _draw_tile(reproduction: Reproduction, end: int, language: Language, renderer: SceneRenderer) -> Frame:

@@ -1,14 +1,14 @@
-"""Rendering with OpenGL: choice of a backend, pictures as arrays, and a window where there is a display."""
+"""Rendering with OpenGL: pictures as arrays."""
 
 from __future__ import annotations
 
-import functools
+import logging
 import os
-import subprocess
 import sys
+import threading
 import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import Any, ClassVar, NamedTuple
 
 import mujoco
 import numpy as np
@@ -16,145 +16,47 @@ from numpy.typing import NDArray
 
 from signimit import InvalidInputError
 from signimit_envs.exceptions import RenderingError
+from signimit_envs.video.backend import INSTALL, choose_backend, use_backend
 
-INSTALL = "On Debian or Ubuntu: apt-get install -y libosmesa6 (or libegl1 libgl1-mesa-dri)."
-_PROBE = (  # program that ends well where a backend works
-    "import mujoco\n"
-    "renderer = mujoco.Renderer(mujoco.MjModel.from_xml_string('<mujoco/>'), 16, 16)\n"
-    "renderer.update_scene(mujoco.MjData(renderer.model))\n"
-    "renderer.render(); renderer.close()"
-)
-_PROBE_SECONDS = 60  # then the backend counts as broken
-_BACKENDS = ("glfw", "egl", "osmesa")  # on Linux, the best first; glfw needs a display
-_OFF = ("disable", "disabled", "off", "false", "0")  # values of MUJOCO_GL by which MuJoCo renders nothing
-_STEERING = (  # variables by which OpenGL may be steered to where there is none
-    "MUJOCO_GL",
-    "MUJOCO_EGL_DEVICE_ID",
-    "PYOPENGL_PLATFORM",
-    "EGL_PLATFORM",
-    "__EGL_VENDOR_LIBRARY_FILENAMES",
-    "__EGL_VENDOR_LIBRARY_DIRS",
-    "LIBGL_DRIVERS_PATH",
-    "MESA_LOADER_DRIVER_OVERRIDE",
-    "GALLIUM_DRIVER",
-    "LD_LIBRARY_PATH",
-)
+_FORKED = "this process was forked off one that had drawn with OpenGL, and would wait for a picture for ever"
+_SPAWN = 'Start processes with context="spawn", e.g. make_vec(..., vector_kwargs={"context": "spawn"}).'
+_log = logging.getLogger(__name__)
+_kept: list[_Owned] = []  # renderers that could not be freed where they were closed
 
 
-def has_display() -> bool:
-    """Return whether a window can be opened: on Linux only where a display is set."""
-    return sys.platform != "linux" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+class _Owned(NamedTuple):
+    """A renderer, and the thread and process that opened it: OpenGL serves it in no other.
 
-
-def choose_backend() -> str:
-    """Choose the OpenGL backend: the user's MUJOCO_GL, else the first of glfw, egl and osmesa that works here.
-
-    Returns:
-        Name of the backend; empty where MuJoCo's own choice is right (macOS, Windows).
-
-    Raises:
-        RenderingError: If none of them works, or that which the user named does not.
+    Attributes:
+        renderer: The renderer.
+        thread: The thread.
+        process: Number of the process.
     """
-    chosen: str = os.environ.get("MUJOCO_GL", "").lower().strip()
-    if not sys.platform.startswith("linux"):
-        return chosen
-    backend, reason, remedy = _first_working_backend(chosen)
-    if not backend:
-        raise RenderingError(reason, remedy)
-    return backend
 
+    renderer: mujoco.Renderer
+    thread: threading.Thread
+    process: int
 
-@functools.cache
-def _first_working_backend(chosen: str) -> tuple[str, str, str]:
-    """Try each backend in a process of its own, as a failed one spoils OpenGL for its process, or ends it.
-
-    That takes seconds, so it is done once in a process, also if it fails.
-
-    Args:
-        chosen: Name of the only backend to try; empty for any that can be.
-
-    Returns:
-        Name of the first that works; or an empty name, why none does, and what to do about it.
-    """
-    if chosen in _OFF:
-        return "", f"MUJOCO_GL={chosen} turns OpenGL off", _find_remedy()
-    already = os.environ.get("PYOPENGL_PLATFORM", "").lower()  # PyOpenGL cannot change its platform once imported
-    usable = [backend for backend in _BACKENDS if already in ("", "glx", backend)]
-    reasons = []
-    for backend in (chosen,) if chosen else usable:
-        if chosen or backend != "glfw" or has_display():
-            failure = _probe(backend)
-            if not failure:
-                return backend, "", ""
-            reasons.append(f"{backend}: {failure}")
-    if chosen:
-        reason = f"MUJOCO_GL={chosen}, and that fails ({reasons[0].partition(': ')[2]})"
-    else:
-        reason = f"no OpenGL library works ({'; '.join(reasons) or f'PYOPENGL_PLATFORM={already} allows none'})"
-    return "", reason, _find_remedy()
-
-
-def _probe(backend: str, without: tuple[str, ...] = ()) -> str:
-    """Draw a picture in a process of its own.
-
-    Args:
-        backend: Value of MUJOCO_GL there.
-        without: Environment variables that are not set there.
-
-    Returns:
-        Why that failed, in the words of what failed; empty if it did not.
-    """
-    environment = {name: value for name, value in os.environ.items() if name not in without}
-    command = [sys.executable, "-c", _PROBE]
-    try:
-        done = subprocess.run(
-            command,
-            env=environment | {"MUJOCO_GL": backend},
-            capture_output=True,
-            text=True,
-            errors="replace",
-            timeout=_PROBE_SECONDS,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        return f"no picture within {_PROBE_SECONDS} s"
-    except OSError as error:
-        return str(error)
-    said = [line.strip() for line in done.stderr.splitlines() if line.strip()]
-    return "" if done.returncode == 0 else said[-1] if said else f"the process ended with code {done.returncode}"
-
-
-def _find_remedy() -> str:
-    """Say what mends OpenGL: to unset variables, if pictures are drawn without them, else to install a library."""
-    present = tuple(name for name in _STEERING if name in os.environ)
-    for names in dict.fromkeys((*((name,) for name in present), present)):
-        kept = os.environ.get("MUJOCO_GL", "") if "MUJOCO_GL" not in names else ""
-        tried = (kept,) if kept else [backend for backend in _BACKENDS if backend != "glfw" or has_display()]
-        if names and not all(_probe(backend, names) for backend in tried):
-            return f"Without {' and '.join(names)} it works: unset {' '.join(names)}"
-    return INSTALL
-
-
-def _use_backend(backend: str) -> None:
-    """Make MuJoCo's renderers use a backend.
-
-    Setting MUJOCO_GL would come too late, MuJoCo reads it as it is imported; its own switch is a private one.
-    """
-    if not backend or not sys.platform.startswith("linux"):
-        return
-    from mujoco.rendering.classic import gl_context
-
-    if backend == "egl":
-        from mujoco.egl import GLContext
-    elif backend == "osmesa":
-        from mujoco.osmesa import GLContext
-    else:
-        from mujoco.glfw import GLContext
-    gl_context.GLContext = GLContext
+    def free(self) -> None:
+        """Free the OpenGL context; where that cannot be done, keep it, since its own end would print an error."""
+        try:
+            if self.process == os.getpid():
+                self.renderer.close()
+                return
+        except Exception:  # PyOpenGL's: the context is in use by the thread that opened it
+            _log.debug("a renderer could not be freed outside of its thread", exc_info=True)
+        _kept.append(self)
 
 
 class OffscreenView:
-    """Offscreen renderer: pictures of a model as arrays. OpenGL is looked for at the first picture, not before."""
+    """Offscreen renderer: pictures of a model as arrays. OpenGL is looked for at the first picture, not before.
+
+    All pictures of a view are drawn in one thread. Copies and pickles have no renderer, and open one at their first
+    picture, in whatever thread and process that is.
+    """
+
+    _drawn: ClassVar[bool] = False  # whether this process, or the one that it was forked from, opened a renderer
+    _forked: ClassVar[bool] = False  # whether it was forked after that
 
     def __init__(self, model: mujoco.MjModel, width: int = 480, height: int = 480) -> None:
         """Draw a model in pictures of a size, pixels.
@@ -168,8 +70,12 @@ class OffscreenView:
                 "size of frames", f"1 to {limits[0]} by 1 to {limits[1]} pixels", f"{width} by {height}"
             )
         self._model, self._width, self._height = model, width, height
-        self._renderer: mujoco.Renderer | None = None
+        self._owned: _Owned | None = None
         self._free: Callable[[], object] | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy needs: not the renderer."""
+        return {**self.__dict__, "_owned": None, "_free": None}
 
     def frame(
         self,
@@ -188,30 +94,68 @@ class OffscreenView:
             Shape (height, width, 3), red, green, blue.
 
         Raises:
-            RenderingError: If there is no OpenGL.
+            RenderingError: If there is no OpenGL, or not in this thread or process.
         """
-        renderer = self._renderer or self._open()
+        renderer = self._renderer()
         renderer.update_scene(data, camera)
         if decorate is not None:
             decorate(renderer.scene)
-        return np.array(renderer.render())
-
-    def _open(self) -> mujoco.Renderer:
-        backend = choose_backend()
-        _use_backend(backend)
         try:
-            self._renderer = mujoco.Renderer(self._model, self._height, self._width)
-        except (mujoco.FatalError, ImportError, RuntimeError, AttributeError) as error:
-            raise RenderingError(f"OpenGL through {backend or 'the system'} failed ({error})", INSTALL) from error
-        # Also freed when the view is not closed: a renderer that outlives the interpreter prints an error.
-        self._free = weakref.finalize(self, self._renderer.close)
-        return self._renderer
+            return np.array(renderer.render())
+        except Exception as error:  # PyOpenGL's, MuJoCo's or ctypes': whatever an OpenGL library does
+            raise RenderingError(
+                f"OpenGL failed ({_one_line(error)})", "Close the environment, and try again."
+            ) from error
+
+    def _renderer(self) -> mujoco.Renderer:
+        """Return the renderer, opened if there is none yet."""
+        if OffscreenView._forked:  # to ask OpenGL for a picture now would take for ever
+            raise RenderingError(_FORKED, _SPAWN)
+        if self._owned is None:
+            self._owned = self._open()
+            # Also freed when the view is not closed: a renderer that outlives the interpreter prints an error.
+            self._free = weakref.finalize(self, self._owned.free)
+        elif self._owned.thread is not threading.current_thread():
+            reason = (
+                f"pictures of this view are drawn in the thread {self._owned.thread.name!r}, and OpenGL serves no other"
+            )
+            raise RenderingError(reason, "Draw in that thread, or draw a copy (copy.deepcopy) in this one.")
+        return self._owned.renderer
+
+    def _open(self) -> _Owned:
+        thread, backend = threading.current_thread(), choose_backend()
+        for owned in [owned for owned in _kept if owned.thread is thread]:
+            _kept.remove(owned)
+            owned.free()
+        try:
+            use_backend(backend)
+            OffscreenView._drawn = True
+            renderer = mujoco.Renderer(self._model, self._height, self._width)
+        except Exception as error:
+            reason = f"OpenGL through {backend or 'the system'} failed ({_one_line(error)})"
+            raise RenderingError(reason, INSTALL) from error
+        return _Owned(renderer, thread, os.getpid())
 
     def close(self) -> None:
-        """Free the OpenGL context; may be called again."""
+        """Free the OpenGL context; may be called again, and in any thread."""
         if self._free is not None:
             self._free()
-        self._renderer = self._free = None
+        self._owned = self._free = None
+
+    @classmethod
+    def note_fork(cls) -> None:
+        """Remember in a forked process that OpenGL was in use before, by this module or by MuJoCo's own means."""
+        egl = sys.modules.get("mujoco.egl")
+        cls._forked = cls._drawn or getattr(egl, "EGL_DISPLAY", None) is not None
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=OffscreenView.note_fork)
+
+
+def _one_line(error: Exception) -> str:
+    """Return what an error says, on one line of 200 characters at most."""
+    return " ".join(str(error).split())[:200]
 
 
 def renderer_name() -> str:
@@ -221,39 +165,10 @@ def renderer_name() -> str:
         RenderingError: If there is no OpenGL.
     """
     view = OffscreenView(mujoco.MjModel.from_xml_string("<mujoco/>"), 16, 16)
-    view._open()
+    view._renderer()
     from OpenGL import GL
 
     try:
         return bytes(GL.glGetString(GL.GL_RENDERER)).decode()
     finally:
         view.close()
-
-
-class WindowView:
-    """Window of MuJoCo's interactive viewer."""
-
-    def __init__(self, model: mujoco.MjModel) -> None:
-        """Show a model; the window opens at the first `show`.
-
-        Raises:
-            RenderingError: If there is no display. The viewer itself would end the process.
-        """
-        if not has_display():
-            raise RenderingError("there is no display for render_mode='human'", "Use render_mode='rgb_array'.")
-        self._model = model
-        self._viewer: Any = None
-
-    def show(self, data: mujoco.MjData) -> None:
-        """Bring the window up to date, opening it at the first call."""
-        if self._viewer is None:
-            import mujoco.viewer
-
-            self._viewer = mujoco.viewer.launch_passive(self._model, data, show_left_ui=False, show_right_ui=False)
-        self._viewer.sync()
-
-    def close(self) -> None:
-        """Close the window; may be called again."""
-        if self._viewer is not None:
-            self._viewer.close()
-            self._viewer = None

@@ -11,7 +11,7 @@ import pytest
 
 import signimit
 from signimit_envs.cli.train import TrainingPlan, evaluate_agent, train_ppo
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 
 
 class Still:

@@ -181,3 +181,95 @@ def test_a_reproduction_is_recorded_as_it_happens_without_a_recorder() -> None:
     with closing(TabletopHandEnv(objects=2)) as env:
         track = reproduce(env, policy, objects, [0.1, -0.1], 2.0)
     np.testing.assert_allclose(episode.observations["hand"], track.path, atol=1e-6)  # actions are rounded to float32
+
+
+def whole_episodes(recording: Recording, lengths: list[int]) -> None:
+    """Fail unless the episodes have these lengths, end where they say so, and replay."""
+    assert [len(episode) for episode in recording] == lengths
+    for episode in recording:
+        ends = (episode.terminations | episode.truncations).tolist()
+        assert ends == [False] * (len(episode) - 1) + [True]
+        assert (episode.observations["objects"] == episode.observations["objects"][0]).all()
+        assert episode.states[0, 0] == 0.0  # the time
+        assert find_divergence(recording.origin, episode) is None
+
+
+def test_an_episode_ends_where_it_is_truncated_outside_of_autoreset_too() -> None:
+    env = gym.make(ENV_IDS[1], max_episode_steps=3)
+    with closing(EpisodeRecorder(gym.wrappers.Autoreset(env))) as recorder:
+        first, _ = recorder.reset(seed=0)
+        seen = [recorder.step(recorder.action_space.sample()) for _ in range(11)]
+        recording = recorder.recording
+    whole_episodes(recording, [3, 3, 3])  # and three resets, but for the first, took the place of a step
+    assert [episode.seed for episode in recording] == [0, None, None]
+    starts = [first["signs"], seen[3][0]["signs"], seen[7][0]["signs"]]
+    for episode, signs in zip(recording, starts, strict=True):
+        np.testing.assert_array_equal(episode.observations["signs"][0], signs)
+
+
+@pytest.mark.parametrize("mode", gym.vector.AutoresetMode)
+def test_an_episode_ends_where_it_is_truncated_in_all_modes_of_vector_environments(
+    mode: gym.vector.AutoresetMode,
+) -> None:
+    """Two environments, with episodes of three and of five steps."""
+    limits = iter((3, 5))
+    many = gym.vector.SyncVectorEnv(
+        [lambda: EpisodeRecorder(gym.make(ENV_IDS[1], max_episode_steps=next(limits)))] * 2, autoreset_mode=mode
+    )
+    many.reset(seed=4)
+    for _ in range(15):
+        *_, truncated, _ = many.step(many.action_space.sample())
+        if mode == gym.vector.AutoresetMode.DISABLED and truncated.any():
+            many.reset(options={"reset_mask": truncated})
+    expected = {
+        gym.vector.AutoresetMode.NEXT_STEP: ([3] * 4, [5] * 2),  # a reset takes the place of a step
+        gym.vector.AutoresetMode.SAME_STEP: ([3] * 5, [5] * 3),
+        gym.vector.AutoresetMode.DISABLED: ([3] * 5, [5] * 3),
+    }[mode]
+    for recorder, lengths in zip(many.envs, expected, strict=True):
+        recording = recorder.get_wrapper_attr("recording")
+        kept = [episode for episode in recording if (episode.truncations | episode.terminations).any()]
+        whole_episodes(Recording(recording.origin, kept), lengths)
+    many.close()
+
+
+def test_steps_after_the_end_and_before_a_reset_belong_to_no_episode() -> None:
+    with closing(EpisodeRecorder(gym.make(ENV_IDS[1], max_episode_steps=3))) as recorder:
+        for seed in (1, 2):
+            recorder.reset(seed=seed)
+            for _ in range(7):
+                recorder.step(recorder.action_space.sample())
+        whole_episodes(recorder.recording, [3, 3])
+
+
+def test_an_episode_ends_where_the_physics_blows_up_and_the_next_one_is_whole() -> None:
+    with closing(EpisodeRecorder(gym.wrappers.Autoreset(gym.make(ENV_IDS[0], max_episode_steps=4)))) as recorder:
+        arm: Any = recorder.unwrapped
+        recorder.reset(seed=0)
+        recorder.step(np.zeros(3))
+        for _ in range(2):
+            arm.data.qvel[:] = 1e12
+            *_, terminated, _, info = recorder.step(np.zeros(3))
+            assert terminated
+            assert info["physics_error"]
+            for _ in range(5):  # a reset and four steps, then another reset
+                recorder.step(np.zeros(3))
+            recorder.step(np.zeros(3))
+        whole_episodes(recorder.recording, [2, 4, 1, 4])
+
+
+def test_a_wrapper_that_resets_before_the_last_state_is_seen_is_refused() -> None:
+    class SameStep(gym.Wrapper[Any, Any, Any, Any]):
+        def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+            observation, reward, terminated, truncated, info = self.env.step(action)
+            if truncated:
+                observation, info = self.env.reset()
+            return observation, reward, terminated, truncated, info
+
+    with closing(EpisodeRecorder(SameStep(gym.make(ENV_IDS[1], max_episode_steps=3)))) as recorder:
+        recorder.reset(seed=0)
+        recorder.step(np.zeros(2))
+        recorder.step(np.zeros(2))
+        with pytest.raises(si.InvalidInputError, match="inside of wrappers that reset an environment in the step"):
+            recorder.step(np.zeros(2))
+        assert [len(episode) for episode in recorder.recording] == [2]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import signimit
 from signimit_envs import CONTROL_RATE, ENV_IDS, TabletopEnv, TabletopHandEnv
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 
 CENTRE = {"objects": [[0.0, 0.0], [0.2, 0.1], [-0.2, 0.1]], "hand": [0.1, 0.0]}
 OBSERVED = {"hand", "hand_velocity", "joints", "joint_velocities", "objects", "signs"}
@@ -232,3 +232,18 @@ def test_closing_twice_is_allowed(env: gym.Env[Any, Any]) -> None:
 def test_arguments_that_cannot_be_are_refused(arguments: dict[str, Any], message: str) -> None:
     with pytest.raises(signimit.SignimitError, match=message):
         TabletopEnv(**arguments)
+
+
+@pytest.mark.parametrize("env_class", [TabletopEnv, TabletopHandEnv])
+def test_a_step_before_the_first_reset_is_refused_in_one_sentence(env_class: type[TabletopEnv]) -> None:
+    env = env_class()
+    sentence = r"^environment: expected a reset before the first step, found none\.$"
+    with pytest.raises(signimit.InvalidInputError, match=sentence):
+        env.step(env.action_space.sample())
+    with pytest.raises(signimit.UnknownNameError):
+        env.reset(options={"wheels": 4})
+    with pytest.raises(signimit.InvalidInputError, match=sentence):
+        env.step(env.action_space.sample())
+    env.reset(seed=0)
+    env.step(env.action_space.sample())
+    env.close()

@@ -18,7 +18,7 @@ import signimit
 from signimit.teaching.languages import Language
 from signimit.teaching.people import synthetic_library
 from signimit_envs import ENV_IDS, RenderingError, TabletopEnv, TabletopHandEnv, reproduce
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 
 TALK = {
     "focus_signs": ["star", "1", "7", "spiral"],

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
+import sys
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -97,3 +100,67 @@ def test_the_recorder_is_part_of_a_specification(tmp_path: Path) -> None:
     assert isinstance(again, RecordMp4)
     again.close()
     env.close()
+
+
+def film(env: RecordMp4, episodes: int, steps: int) -> None:
+    for _ in range(episodes):
+        env.reset()
+        for _ in range(steps):
+            env.step(None)
+    env.close()
+
+
+def test_no_two_films_of_a_run_have_the_same_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "films"
+    film(RecordMp4(Painted(), folder), 2, 1)
+    monkeypatch.chdir(tmp_path)
+    film(RecordMp4(Painted(), "films"), 2, 2)  # the same folder
+    first, second = RecordMp4(Painted(), folder, prefix="[a]"), RecordMp4(Painted(), folder, prefix="[a]")
+    for env in (first, second, second, first):
+        env.reset()
+        env.step(None)
+    first.close()
+    second.close()
+    assert sorted(os.listdir(folder)) == [f"[a]-000{n}.mp4" for n in range(4)] + [
+        f"episode-000{n}.mp4" for n in range(4)
+    ]
+    assert [frames(folder / f"episode-000{n}.mp4") for n in range(4)] == [[0, 1], [0, 1], [0, 1, 2], [0, 1, 2]]
+
+
+def test_films_of_an_earlier_run_are_replaced_after_a_warning(tmp_path: Path) -> None:
+    """A run is a process."""
+    program = (
+        "import sys, tests.signimit_envs.video.test_record_mp4 as t\n"
+        "t.film(t.RecordMp4(t.Painted(), sys.argv[1]), 2, 1)"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    root = Path(__file__).parents[3]
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", program, str(tmp_path / "films")],
+            env=environment, cwd=root, capture_output=True, text=True, check=True,
+        ).stderr
+        for _ in range(2)
+    ]  # fmt: skip
+    assert said[0] == ""
+    assert said[1].count("of an earlier run will be replaced") == 1
+    assert sorted(os.listdir(tmp_path / "films")) == ["episode-0000.mp4", "episode-0001.mp4"]
+
+
+def test_films_of_worker_processes_have_names_of_their_own(tmp_path: Path) -> None:
+    many = gym.vector.AsyncVectorEnv([partial(RecordMp4, Painted(), tmp_path)] * 2, context="spawn")
+    many.reset()
+    many.close()
+    names = sorted(os.listdir(tmp_path))
+    assert len(names) == 2
+    assert all(re.fullmatch(r"episode-\d+-0000\.mp4", name) for name in names)
+
+
+def test_episodes_that_a_wrapper_inside_begins_are_filmed_too(tmp_path: Path) -> None:
+    env = RecordMp4(gym.wrappers.Autoreset(Painted()), tmp_path, every=2)
+    env.reset()
+    for _ in range(13):  # episodes of four steps, each but the first with a reset for another step
+        env.step(None)
+    env.close()
+    assert sorted(os.listdir(tmp_path)) == ["episode-0000.mp4", "episode-0002.mp4"]
+    assert [frames(tmp_path / name) for name in sorted(os.listdir(tmp_path))] == [[0, 1, 2, 3, 4], [0, 1, 2, 3]]

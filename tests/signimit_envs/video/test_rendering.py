@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
+import copy
+import ctypes
+import gc
 import os
+import pickle
 import subprocess
 import sys
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import gymnasium as gym
 import mujoco
 import numpy as np
 import pytest
 
-import signimit
 from signimit_envs import RenderingError
 from signimit_envs.arm.scene import compile_scene
-from signimit_envs.video import rendering
-from signimit_envs.video.rendering import OffscreenView, WindowView, choose_backend
+from signimit_envs.video.backend import choose_backend
+from signimit_envs.video.rendering import OffscreenView
 
 WITHOUT_OPENGL = """
 import gymnasium as gym
@@ -64,97 +69,6 @@ def test_without_opengl_everything_works_but_pictures() -> None:
     assert "unset PYOPENGL_PLATFORM" in done.stdout or "apt-get install" in done.stdout  # that where none is there
 
 
-@pytest.fixture
-def probed(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[tuple[str, tuple[str, ...]]]]:
-    """Backends that were probed, each with the variables that were unset for it, on a Linux without displays."""
-    for name in (*rendering._STEERING, "DISPLAY", "WAYLAND_DISPLAY"):
-        monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr(sys, "platform", "linux")
-    rendering._first_working_backend.cache_clear()
-    yield []
-    rendering._first_working_backend.cache_clear()
-
-
-Probed = list[tuple[str, tuple[str, ...]]]
-
-
-@pytest.mark.parametrize(("working", "tried"), [("egl", ["egl"]), ("osmesa", ["egl", "osmesa"])])
-def test_no_backend_that_fails_is_chosen(
-    working: str, tried: list[str], probed: Probed, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def probe(backend: str, without: tuple[str, ...] = ()) -> str:
-        probed.append((backend, without))
-        return "" if backend == working else "Error: broken"
-
-    monkeypatch.setattr(rendering, "_probe", probe)
-    assert choose_backend() == working
-    assert [backend for backend, _ in probed] == tried
-
-
-def test_the_users_choice_is_respected(probed: Probed, monkeypatch: pytest.MonkeyPatch) -> None:
-    def probe(backend: str, without: tuple[str, ...] = ()) -> str:
-        probed.append((backend, without))
-        return ""
-
-    monkeypatch.setattr(rendering, "_probe", probe)
-    monkeypatch.setenv("MUJOCO_GL", "OSMesa ")
-    assert choose_backend() == "osmesa"
-    assert probed == [("osmesa", ())]
-
-
-def test_where_nothing_works_each_reason_is_told_and_nothing_is_tried_twice(
-    probed: Probed, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fails(backend: str, without: tuple[str, ...] = ()) -> str:
-        probed.append((backend, without))
-        return f"ImportError: no {backend}"
-
-    monkeypatch.setattr(rendering, "_probe", fails)
-    expected = r"no OpenGL library works \(egl: ImportError: no egl; osmesa: ImportError: no osmesa\)\. .*apt-get"
-    for _ in range(2):
-        with pytest.raises(RenderingError, match=expected):
-            choose_backend()
-    assert [backend for backend, _ in probed] == ["egl", "osmesa"]
-
-
-@pytest.mark.parametrize(
-    ("variables", "guilty"),
-    [
-        ({"MUJOCO_GL": "slate"}, ("MUJOCO_GL",)),
-        ({"MUJOCO_GL": "disable"}, ("MUJOCO_GL",)),
-        ({"MUJOCO_EGL_DEVICE_ID": "7"}, ("MUJOCO_EGL_DEVICE_ID",)),
-        ({"MUJOCO_GL": "egl", "MUJOCO_EGL_DEVICE_ID": "7"}, ("MUJOCO_EGL_DEVICE_ID",)),
-        ({"PYOPENGL_PLATFORM": "none"}, ("PYOPENGL_PLATFORM",)),
-        ({"MUJOCO_GL": "glfw", "EGL_PLATFORM": "none"}, ("MUJOCO_GL", "EGL_PLATFORM")),
-    ],
-)
-def test_a_variable_without_which_pictures_are_drawn_is_the_remedy_not_apt(
-    variables: dict[str, str], guilty: tuple[str, ...], probed: Probed, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def probe(backend: str, without: tuple[str, ...] = ()) -> str:
-        probed.append((backend, without))
-        return "" if backend == "egl" and set(guilty) <= set(without) else "RuntimeError: its own reason"
-
-    monkeypatch.setattr(rendering, "_probe", probe)
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
-    with pytest.raises(RenderingError) as caught:
-        choose_backend()
-    assert caught.value.remedy == f"Without {' and '.join(guilty)} it works: unset {' '.join(guilty)}"
-    untried = {"MUJOCO_GL=disable turns OpenGL off", "no OpenGL library works (PYOPENGL_PLATFORM=none allows none)"}
-    assert "RuntimeError: its own reason" in caught.value.reason or caught.value.reason in untried
-
-
-def test_a_probe_repeats_the_last_thing_that_was_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    said = rendering._probe("slate")
-    assert said == "RuntimeError: invalid value for environment variable MUJOCO_GL: slate"
-    monkeypatch.setattr(rendering, "_PROBE", "import os; os._exit(3)")
-    assert rendering._probe("egl") == "the process ended with code 3"
-    monkeypatch.setattr(rendering, "_PROBE", "import time; time.sleep(9)")
-    monkeypatch.setattr(rendering, "_PROBE_SECONDS", 0.1)
-    assert rendering._probe("egl") == "no picture within 0.1 s"
-
-
 @pytest.mark.parametrize("value", ["slate", "osmesa", "disable"])
 def test_physics_starts_whatever_mujoco_gl_says(value: str) -> None:
     program = (
@@ -168,14 +82,6 @@ def test_physics_starts_whatever_mujoco_gl_says(value: str) -> None:
     environment |= {"MUJOCO_GL": value, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
     done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
     assert (done.stdout, done.stderr) == (f"{value} True\n", "")
-
-
-def test_mujocos_private_switch_is_where_it_is_expected() -> None:
-    from mujoco.rendering.classic import gl_context, renderer
-
-    assert hasattr(gl_context, "GLContext")
-    assert renderer.gl_context is gl_context
-    assert renderer.Renderer is mujoco.Renderer
 
 
 def test_frames_are_fresh_arrays_that_show_something(view: OffscreenView, data: mujoco.MjData) -> None:
@@ -240,9 +146,116 @@ def test_the_environment_renders_what_it_was_asked_to(view: OffscreenView) -> No
     env.close()
 
 
-def test_a_window_without_a_display_is_refused_before_it_ends_the_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sys, "platform", "linux")
-    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
-        monkeypatch.delenv(name, raising=False)
-    with pytest.raises(signimit.SignimitError, match="no display for render_mode='human'"):
-        WindowView(compile_scene())
+def in_another_thread(work: Callable[[], object]) -> Exception | None:
+    """Return what was raised."""
+    raised: list[Exception] = []
+
+    def run() -> None:
+        try:
+            work()
+        except Exception as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join()
+    return raised[0] if raised else None
+
+
+def assert_one_line(error: Exception | None) -> str:
+    assert isinstance(error, RenderingError)
+    assert "\n" not in str(error)
+    return str(error)
+
+
+@pytest.mark.usefixtures("view")
+def test_a_picture_in_another_thread_is_refused_and_one_of_a_copy_is_drawn() -> None:
+    env = gym.make("signimit/TabletopHand-v0", obs_type="pixels", size=(32, 32))
+    env.reset(seed=0)
+    said = assert_one_line(in_another_thread(lambda: env.step(np.zeros(2))))
+    assert "drawn in the thread 'MainThread'" in said
+    assert "copy.deepcopy" in said
+    twin = copy.deepcopy(env)
+
+    def draw_and_close() -> None:
+        twin.step(np.zeros(2))
+        twin.close()
+
+    assert in_another_thread(draw_and_close) is None
+    env.step(np.zeros(2))
+    assert in_another_thread(env.close) is None
+    env.reset(seed=0)  # opens another renderer
+    env.close()
+
+
+@pytest.mark.usefixtures("view")
+def test_a_view_of_a_thread_that_is_over_is_closed_quietly(data: mujoco.MjData) -> None:
+    views = [OffscreenView(compile_scene(), 32, 32) for _ in range(2)]
+    for view in views:
+        assert in_another_thread(partial(view.frame, data)) is None
+    views[0].close()
+    assert views[0].frame(data).shape == (32, 32, 3)
+    views[0].close()
+    del view, views
+    gc.collect()  # an error here would be a warning, and warnings are errors
+
+
+def test_whatever_opengl_raises_is_told_in_one_sentence(
+    view: OffscreenView, data: mujoco.MjData, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Unlucky(mujoco.Renderer):  # type: ignore[misc]
+        def render(self, **options: object) -> object:
+            raise ctypes.ArgumentError("bad\ncontext" * 99)
+
+    plain = view.frame(data)
+    view.close()
+    monkeypatch.setattr(mujoco, "Renderer", Unlucky)
+    for _ in range(2):
+        with pytest.raises(RenderingError, match="OpenGL failed") as failed:
+            view.frame(data)
+        assert len(assert_one_line(failed.value)) < 300
+    monkeypatch.setattr(mujoco, "Renderer", lambda *size: 1 / 0)
+    view.close()
+    with pytest.raises(RenderingError, match="failed \\(division by zero\\)"):
+        view.frame(data)
+    monkeypatch.undo()
+    np.testing.assert_array_equal(view.frame(data), plain)
+
+
+@pytest.mark.usefixtures("view")
+@pytest.mark.skipif(not hasattr(os, "register_at_fork"), reason="this system does not fork")
+@pytest.mark.parametrize("drawn_by", ["env", "MuJoCo"])
+def test_forked_workers_say_that_they_have_to_be_spawned(drawn_by: str) -> None:
+    """In a process of its own: without the sentence it would hang for ever."""
+    program = (
+        "import gymnasium as gym, mujoco, signimit_envs\n"
+        "from signimit_envs.video import backend\n"
+        "env = gym.make('signimit/Tabletop-v0', render_mode='rgb_array', size=(32, 32))\n"
+        "env.reset(seed=0)\n"
+        "if DRAWN_BY == 'env':\n"
+        "    env.render(); env.close()\n"
+        "else:\n"
+        "    backend.use_backend(backend.choose_backend())\n"
+        "    mujoco.Renderer(env.unwrapped.model, 32, 32).close()\n"
+        "many = gym.make_vec('signimit/Tabletop-v0', 2, 'async', obs_type='pixels', size=(32, 32))\n"
+        "try:\n"
+        "    many.reset(seed=0)\n"
+        "except signimit_envs.RenderingError as error:\n"
+        "    print(error)\n"
+    ).replace("DRAWN_BY", repr(drawn_by))
+    if drawn_by == "MuJoCo" and choose_backend() != "egl":
+        pytest.skip("only of EGL it is known that MuJoCo has drawn")
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True, timeout=60
+    )
+    assert "forked off one that had drawn with OpenGL" in done.stdout
+    assert 'context="spawn"' in done.stdout
+    assert done.stdout.count("\n") == 1
+
+
+def test_an_error_of_rendering_survives_the_way_from_another_process() -> None:
+    error = RenderingError("no light", "Switch it on.")
+    twin = pickle.loads(pickle.dumps(error))
+    assert (str(twin), twin.reason, twin.remedy) == (str(error), "no light", "Switch it on.")
+    assert str(error) == "Cannot render: no light. Switch it on."

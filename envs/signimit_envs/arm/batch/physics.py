@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import resources
 from threading import Lock
 from types import TracebackType
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import mujoco
 import numpy as np
@@ -50,10 +50,24 @@ class ManyArms:
             threads: Number of threads that compute the physics; 0 for one a processor.
         """
         self._arm = PlanarArm.from_model(model)
-        self._batch = Batch(model, joints.shape[1], threads)
-        self._qpos, self._qvel, self._ctrl = (self._batch.bind(name).T for name in ("qpos", "qvel", "ctrl"))
+        self._open(model, joints.shape[1], threads)
         self._qpos[:] = joints
         self._batch.forward()
+
+    def _open(self, model: mujoco.MjModel, count: int, threads: int) -> None:
+        self._batch = Batch(model, count, threads)
+        self._qpos, self._qvel, self._ctrl = (self._batch.bind(name).T for name in ("qpos", "qvel", "ctrl"))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy needs; MuJoCo's batches can be neither copied nor pickled."""
+        batch = self._batch
+        return {"arm": self._arm, "model": batch.model, "state": batch.state.copy(), "threads": batch.nthread}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Become a copy, with a batch of its own in the same state."""
+        self._arm = state["arm"]
+        self._open(state["model"], len(state["state"]), state["threads"])
+        self._batch.state[:] = state["state"]
 
     @property
     def joints(self) -> Array:

@@ -20,7 +20,7 @@ from PIL import Image
 from signimit_envs.arm.scene import OBJECT_COUNTS, compile_scene
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.studio.arm.live_state import LiveState, is_alike
-from signimit_envs.video.rendering import INSTALL
+from signimit_envs.video.backend import INSTALL
 from signimit_envs.video.scene_renderer import SceneRenderer
 from signimit_envs.video.storyboard import PARKED, Shot
 

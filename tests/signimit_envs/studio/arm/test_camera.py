@@ -18,7 +18,7 @@ from signimit_envs.exceptions import RenderingError
 from signimit_envs.studio.arm.camera import HAND_HEIGHT, Camera, picture_mapping
 from signimit_envs.studio.arm.live_state import LiveState
 from signimit_envs.tabletop_hand import TabletopHandEnv
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 from signimit_envs.video.storyboard import PARKED
 
 OBJECT_HEIGHT, CAP_HEIGHT = 0.044, 0.13  # m, of what the camera sees of objects and of the hand

@@ -13,7 +13,7 @@ import signimit as si
 from signimit_envs.studio.limits import Limits
 from signimit_envs.studio.page.built_in_people import templates
 from signimit_envs.studio.page.exports import FORMATS
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 
 Json = dict[str, Any]
 

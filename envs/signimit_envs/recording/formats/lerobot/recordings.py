@@ -34,7 +34,7 @@ from signimit_envs.recording.formats.lerobot.layout import (
 from signimit_envs.recording.origin import read_origin, write_origin
 from signimit_envs.recording.replay import film_states
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
-from signimit_envs.video.rendering import choose_backend
+from signimit_envs.video.backend import choose_backend
 
 ROBOT = "signimit_planar_arm"
 TASK = "Do what the two signs ask for."  # the request itself is not observed
