@@ -94,7 +94,7 @@ class ImportReport:
     def summary(self) -> str:
         """Say how many drawings were read, repaired and left out, and name the first that was left out, or repaired."""
         drawings, repaired = (sum(getattr(f, name) for f in self.files) for name in ("drawings", "repaired"))
-        sentence = f"{drawings} drawings were read, {repaired} of them repaired, and {len(self.left_out)} left out"
+        sentence = f"drawings: {drawings} read, {repaired} of them repaired, {len(self.left_out)} left out"
         if self.left_out:
             return f"{sentence}; the first: {self.left_out[0]}"
         first = next((f"; the first: {f.where}: {f.what}" for f in self.findings if f.kind == "repaired"), "")
@@ -120,7 +120,7 @@ class ImportReport:
             counts[finding.kind, finding.what] += finding.number
             places[finding.kind, finding.what].add(finding.where)
         for (kind, what), number in counts.most_common():
-            lines.append(f"{kind}: {what} ({number} in {len(places[kind, what])} drawings)")
+            lines.append(f"{kind}: {what} ({number} in {len(places[kind, what])} places)")
         lines += [f"left out: {error}" for error in self.left_out[:most]]
         if len(self.left_out) > most:
             lines.append(f"left out: {len(self.left_out) - most} more")

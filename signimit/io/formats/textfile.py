@@ -60,14 +60,14 @@ def read_text(path: str | os.PathLike[str]) -> str:
 
 
 def is_binary(path: str | os.PathLike[str]) -> bool:
-    """Tell whether a file holds zero bytes early on, and is no UTF-16 or UTF-32.
+    """Tell whether a file holds zero bytes early on, but for those that pad its end, and is no UTF-16 or UTF-32.
 
     Raises:
         OSError: If it cannot be read.
     """
     with open(path, "rb") as file:
         head = file.read(4096)
-    return b"\0" in head and _encoding(head) == "utf-8"
+    return b"\0" in head.rstrip(b"\0") and _encoding(head) == "utf-8"
 
 
 def _encoding(data: bytes) -> str:
