@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -22,12 +23,20 @@ class Commands:
 
     def refusal(self, *argv: object) -> str:
         """Run a command that must end with code 2, and return its complaint, one line."""
-        with pytest.raises(SystemExit) as stop:
-            self(*argv)
-        assert stop.value.code == 2
-        said: str = self._capsys.readouterr().err
+        _, said = self._end(2, argv)
         assert said.count("\n") == 1
         return said
+
+    def incomplete(self, *argv: object) -> str:
+        """Run a command that must end with code 3, having left something out, and return what it printed."""
+        return self._end(3, argv)[0]
+
+    def _end(self, code: int, argv: Sequence[object]) -> tuple[str, str]:
+        with pytest.raises(SystemExit) as stop:
+            self(*argv)
+        assert stop.value.code == code
+        out, err = self._capsys.readouterr()
+        return out, err
 
 
 @pytest.fixture

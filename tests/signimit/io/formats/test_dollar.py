@@ -1,6 +1,7 @@
 """Gesture logs of the $1 recogniser."""
 
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from signimit import FileFormatError
-from signimit.io.formats import read_dollar
+from signimit.io.formats import StrokeImportWarning, read_dollar
 
 GOOD = """\ufeff<?xml version="1.0" encoding="utf-8" standalone="yes"?>
 <Gesture Name="circle03" Subject="2" Speed="slow" Number="3" NumPts="3" Millseconds="15">
@@ -68,6 +69,54 @@ def test_broken_files_give_one_sentence(tmp_path: Path, old: str, new: str, matc
         read_dollar(path)
     assert str(caught.value).startswith(str(path))
     assert "\n" not in str(caught.value)
+
+
+def test_a_log_whose_clock_steps_back_is_read(tmp_path: Path) -> None:
+    with pytest.warns(StrokeImportWarning, match="1 of them repaired.*time stamps that step back"):
+        library = read_dollar(
+            written(tmp_path, GOOD.replace("10128234", "10128244").replace('10128244" />\n</', '10128243" />\n</'))
+        )
+    assert_allclose(library[0].points, [(102, -162), (98, -161), (96, -160)])
+    assert_allclose(library[0].times, [0, 0.015, 0.0155], atol=1e-9)
+
+
+def test_stamps_of_seconds_and_of_nothing_give_an_even_pace(tmp_path: Path) -> None:
+    for stamps in (("0.0", "0.005", "0.015"), ("0", "0", "0"), ("-1", "-1", "-1")):
+        text = GOOD
+        for old, new in zip(("10128229", "10128234", "10128244"), stamps, strict=True):
+            text = text.replace(old, new)
+        with pytest.warns(StrokeImportWarning, match="points taken to be 10 ms apart"):
+            library = read_dollar(written(tmp_path, text))
+        assert_allclose(library[0].times, [0, 0.01, 0.02])
+
+
+@pytest.mark.parametrize("replacement", ["", 'T=""'])
+def test_points_without_stamps_are_evenly_paced(tmp_path: Path, replacement: str) -> None:
+    library = read_dollar(written(tmp_path, re.sub(r'T="\d*"', replacement, GOOD)))
+    assert_allclose(library[0].points, [(102, -162), (98, -161), (96, -160)])
+    assert_allclose(library[0].times, [0, 0.01, 0.02])
+
+
+def test_decimal_commas_are_read(tmp_path: Path) -> None:
+    with pytest.warns(StrokeImportWarning, match="commas as decimal points"):
+        library = read_dollar(written(tmp_path, GOOD.replace('X="102"', 'X="101,75"')))
+    assert_allclose(library[0].points[0], (101.75, -162))
+
+
+def test_gestures_of_one_file_are_read_one_by_one(tmp_path: Path) -> None:
+    gesture = GOOD[GOOD.index("<Gesture") :]
+    broken = gesture.replace('Y="161"', "")
+    path = written(tmp_path, f"<Gestures>{gesture}{broken}{gesture.replace('circle', 'star')}</Gestures>")
+    with pytest.warns(StrokeImportWarning, match="2 read, 0 of them repaired, 1 left out; .*drawing 1: point 1"):
+        assert read_dollar(path).labels == ("circle", "star")
+    with pytest.raises(FileFormatError, match=r"circle03\.xml: drawing 1: point 1: expected numbers X, Y and T"):
+        read_dollar(path, strict=True)
+
+
+def test_a_flaw_in_a_stroke_names_it(tmp_path: Path) -> None:
+    strokes = '<Stroke><Point X="0" Y="0" T="0"/></Stroke><Stroke><Point X="0" T="9"/></Stroke>'
+    with pytest.raises(FileFormatError, match=r"circle03\.xml: stroke 1: point 0: expected numbers X, Y and T"):
+        read_dollar(written(tmp_path, f'<Gesture Name="T">{strokes}</Gesture>'))
 
 
 def test_files_of_real_people_give_the_points_of_the_data_set() -> None:

@@ -1,5 +1,6 @@
 """Strokes read from files and whole folders, and the table of what is in a library."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -7,7 +8,14 @@ import numpy as np
 import pytest
 
 from signimit import FileFormatError, MissingDependencyError, Stroke, StrokeLibrary, UnknownNameError
-from signimit.io.formats import detect_format, inventory_table, read_strokes, write_inkml
+from signimit.io.formats import (
+    StrokeImportWarning,
+    detect_format,
+    import_strokes,
+    inventory_table,
+    read_strokes,
+    write_inkml,
+)
 from signimit.teaching.people import synthetic_library
 
 UNIPEN = '.SEGMENT DIGIT 0 ? "6"\n.COMMENT 6 13 38\n.PEN_DOWN\n1 2\n3 4\n.PEN_UP\n'
@@ -43,6 +51,79 @@ def test_formats_are_told_by_content(folder: Path) -> None:
 
 def test_a_format_named_leaves_the_others_of_a_folder(folder: Path) -> None:
     assert read_strokes([folder], "dollar").labels == ("star",)
+
+
+def test_one_path_needs_no_list(folder: Path) -> None:
+    assert read_strokes(folder / "b.txt").labels == ("6",)
+    assert read_strokes(str(folder / "deep")).labels == ("star",)
+
+
+def test_every_file_of_a_folder_is_accounted_for(folder: Path) -> None:
+    (folder / "broken.inkml").write_text("<ink><trace>0 0, 1")
+    (folder / "dots.txt").write_text(UNIPEN + UNIPEN.replace("3 4\n", ""))
+    (folder / "jitter.xml").write_text(DOLLAR.replace("</G", '<Point X="4" Y="0" T="9"/></G'))
+    (folder / "lost.xml").symlink_to(folder / "nowhere")
+    os.mkfifo(folder / "pipe")
+    library, report = import_strokes(folder)
+    assert library.labels == ("6", "1", "1", "star", "6", "star")
+    assert {str(file.path.relative_to(folder)): file.status for file in report.files} == {
+        ".hidden.txt": "hidden",
+        "README.md": "not a drawing",
+        "b.txt": "read",
+        "broken.inkml": "left out",
+        "c.inkml": "read",
+        "d.npz": "read",
+        "deep/star01.xml": "read",
+        "dots.txt": "left out",
+        "foreign.npz": "not a drawing",
+        "jitter.xml": "repaired",
+        "lost.xml": "left out",
+        "pipe": "not a drawing",
+    }
+    lines = report.table().splitlines()
+    assert [line.split() for line in lines[:4]] == [
+        ["files", "drawings"],
+        ["read", "4", "5"],
+        ["repaired", "1", "1"],
+        ["left", "out", "3", "3"],
+    ]
+    assert (
+        f"left out: {folder / 'lost.xml'}: expected a file that can be read, found No such file or directory." in lines
+    )
+
+
+def test_marks_far_into_a_file_and_utf_16_are_not_passed_over(tmp_path: Path) -> None:
+    (tmp_path / "a.dat").write_text(f".VERSION 1.0\n.COMMENT {'words ' * 2000}\n{UNIPEN}")
+    (tmp_path / "b.xml").write_text(f"<!-- {'licence ' * 2000} -->{DOLLAR}")
+    (tmp_path / "c.xml").write_text(DOLLAR, encoding="utf-16")
+    (tmp_path / "README.txt").write_text("each file has a <Gesture, or a <ink, or a .SEGMENT\n")
+    assert read_strokes(tmp_path).labels == ("6", "star", "star")
+
+
+def test_a_broken_drawing_stops_nothing_unless_strict(folder: Path) -> None:
+    (folder / "broken.xml").write_text(DOLLAR[:50])
+    with pytest.warns(StrokeImportWarning, match=r"drawings: 4 read, 0 of them repaired, 1 left out; the first: .*xml"):
+        assert len(read_strokes(folder)) == 4
+    for paths in (folder, [folder / "b.txt", folder / "broken.xml"]):
+        with pytest.raises(FileFormatError, match=r"broken\.xml: expected well-formed XML"):
+            read_strokes(paths, strict=True)
+    with pytest.warns(StrokeImportWarning, match="1 left out"):
+        assert read_strokes([folder / "b.txt", folder / "README.md"]).labels == ("6",)
+
+
+def test_a_file_that_another_one_includes_is_read_once(tmp_path: Path) -> None:
+    segment, pen_data = UNIPEN.splitlines(keepends=True)[0], "".join(UNIPEN.splitlines(keepends=True)[2:])
+    (tmp_path / "b.dat").write_text(f".VERSION 1.0\n.COORD X Y\n{segment}.INCLUDE a.dat\n")
+    (tmp_path / "a.dat").write_text(pen_data)
+    library, report = import_strokes(tmp_path)
+    assert library.labels == ("6",)
+    assert [file.status for file in report.files] == ["read with another", "read"]
+
+
+def test_a_library_of_many_files_names_a_few_of_them(tmp_path: Path) -> None:
+    for number in range(8):
+        (tmp_path / f"{number}.txt").write_text(UNIPEN)
+    assert read_strokes(tmp_path).source.endswith("UNIPEN 3.txt + UNIPEN 4.txt + 3 more")
 
 
 def test_files_and_folders_mix(folder: Path) -> None:

@@ -126,7 +126,7 @@ def test_what_means_the_same_reads_the_same(tmp_path: Path, text: str) -> None:
 def test_accents_of_another_encoding_are_read(tmp_path: Path) -> None:
     path = tmp_path / "digits.txt"
     path.write_bytes(GOOD.replace(".LEXICON", ".WRITER_ID Ren\xe9\n.LEXICON").encode("latin-1"))
-    with pytest.warns(StrokeImportWarning, match="2 drawings were read"):
+    with pytest.warns(StrokeImportWarning, match="drawings: 2 read"):
         assert read_unipen(path).labels == ("6", "7")
 
 
