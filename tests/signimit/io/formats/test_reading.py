@@ -1,6 +1,7 @@
 """Strokes read from files and whole folders, and the table of what is in a library."""
 
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -151,6 +152,22 @@ def test_xml_without_defusedxml_says_what_to_install(folder: Path, monkeypatch: 
     with pytest.raises(MissingDependencyError, match=r"needs defusedxml: .*pip install 'signimit\[strokes\]'"):
         read_strokes([folder / "c.inkml"])
     assert read_strokes([folder / "b.txt"]).labels == ("6",)
+
+
+def test_the_program_of_the_docs_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = Path(__file__).parents[4] / "docs" / "strokes.md"
+    if not page.is_file():
+        pytest.skip("the docs are not beside these tests")
+    monkeypatch.chdir(tmp_path)
+    for block in re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL):
+        exec(block, {})
+    assert capsys.readouterr().out.splitlines() == [
+        "StrokeLibrary(1 stroke, 1 label, 1 writer, source='$1 gesture logs')",
+        "arc01.xml repaired ['time stamps that step back by 16 ms or less: lifted to the one before']",
+        "dot01.xml left out [] dot01.xml: stroke points: expected at least 2 points, found 1.",
+    ]
 
 
 def test_labels_are_rows_and_writers_columns_in_the_order_people_count() -> None:
