@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from signimit.exceptions import FileFormatError
@@ -13,15 +14,16 @@ from signimit.io.formats.unipen import is_unipen
 from signimit.strokes import KIND, VERSION
 
 _ROOTS = {GESTURE: "dollar", "ink": "inkml"}  # by the name of the document's first element
+_INK = re.compile(r"<(?:\w+:)?(?:Point\s[^<>]*\bX\s*=|trace\b[^<>]*>[^<]*\d)")  # a point of a gesture or trace
 _FIRST_ENTRY = b"signimit.npy"  # of our archives
 
 
 def detect_format(path: str | os.PathLike[str]) -> str | None:
     """Tell which reader a file is for; none if for none.
 
-    InkML and $1 logs are told by their first element, or by the suffix ``.inkml``, and other XML by the gestures that
-    it holds if it is well-formed; UNIPEN by its keywords, wherever they stand; our libraries by their header.
-    The rest of the file may still be broken.
+    InkML and $1 logs are told by their first element, other XML by the gestures that it holds; UNIPEN by its keywords,
+    wherever they stand; our libraries by their header. A file that is broken counts if there is ink in it, or if its
+    suffix says that there should be.
 
     Raises:
         OSError: If the file cannot be read.
@@ -29,20 +31,25 @@ def detect_format(path: str | os.PathLike[str]) -> str | None:
     """
     if is_binary(path):
         return "library" if is_library(path) else None
-    suffix = "inkml" if Path(path).suffix.lower() == ".inkml" else None
-    data = read_bytes(path)
+    data, suffix = read_bytes(path), Path(path).suffix.lower()
+    supposed = "inkml" if suffix == ".inkml" else None
     try:
         text, _ = decode_text(data, os.fspath(path))
     except FileFormatError:
-        return suffix
+        return supposed
     name = root_name(text)
-    if name in _ROOTS or suffix or not name:
-        return _ROOTS.get(name) or suffix or ("unipen" if is_unipen(text) else None)
+    if not name:
+        return supposed or ("unipen" if is_unipen(text) else None)
+    named = _ROOTS.get(name, supposed)
+    if named and (suffix in (".xml", ".inkml") or _INK.search(text)):
+        return named
+    if not named and f"{GESTURE} " not in text:
+        return None
     try:
-        gestures = f"<{GESTURE}" in text and holds_gestures(parse_xml(data, os.fspath(path)).root)
+        root = parse_xml(data, os.fspath(path)).root
     except FileFormatError:
         return None
-    return "dollar" if gestures else None
+    return named or ("dollar" if holds_gestures(root) else None)
 
 
 def is_library(path: str | os.PathLike[str]) -> bool:

@@ -142,7 +142,7 @@ def _import_member(path: Path, format: str) -> _Part:
     try:
         kind = detect_format(path)
         if kind is None:
-            return _passed_over(path, NOT_A_DRAWING)
+            return _passed_over(path, NOT_A_DRAWING if path.stat().st_size else "empty")
         return _import_file(path, kind) if format in (AUTO, kind) else _passed_over(path, f"{kind}, not asked for")
     except OSError as error:
         reason = FileFormatError(str(path), "a file that can be read", error.strerror or str(error))

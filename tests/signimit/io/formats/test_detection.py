@@ -28,6 +28,10 @@ LONG = "words " * 5000  # beyond any first block
         ("a.xml", DOLLAR[:30], "dollar"),  # cut off: broken, but no other thing
         ("a.xml", f'<x:ink xmlns:x="http://www.w3.org/2003/InkML">{INKML}</x:ink>', "inkml"),
         ("a.InkML", "", "inkml"),
+        ("a.xml", "<?xml version='1.0'?><Gesture Na", "dollar"),  # cut off before the first point
+        ("README", "<Gesture> is the first element of a log, <ink> that of InkML.\n", None),
+        ("README", "<ink> holds <trace> elements of numbers.\n", None),
+        ("empty.txt", "<ink></ink>", "inkml"),  # well-formed, if without ink
         ("README.md", f"# Files\nThey hold `<Gesture>` or <ink> and .SEGMENT:\n\n{UNIPEN}", None),
         ("README.md", f"# Files\n```xml\n{DOLLAR}\n```\n", None),
         ("index.html", f"<html><body><pre>{DOLLAR}<br></pre></body></html>", None),  # not well-formed

@@ -64,6 +64,7 @@ def test_every_file_of_a_folder_is_accounted_for(folder: Path) -> None:
     (folder / "dots.txt").write_text(UNIPEN + UNIPEN.replace("3 4\n", ""))
     (folder / "jitter.xml").write_text(DOLLAR.replace("</G", '<Point X="4" Y="0" T="9"/></G'))
     (folder / "lost.xml").symlink_to(folder / "nowhere")
+    (folder / "full_disk.xml").touch()
     os.mkfifo(folder / "pipe")
     library, report = import_strokes(folder)
     assert library.labels == ("6", "1", "1", "star", "6", "star")
@@ -77,6 +78,7 @@ def test_every_file_of_a_folder_is_accounted_for(folder: Path) -> None:
         "deep/star01.xml": "read",
         "dots.txt": "left out",
         "foreign.npz": "not a drawing",
+        "full_disk.xml": "empty",
         "jitter.xml": "repaired",
         "lost.xml": "left out",
         "pipe": "not a drawing",
