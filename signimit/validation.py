@@ -12,7 +12,7 @@ from signimit.exceptions import InvalidInputError
 
 LARGEST = 1e100  # squares and ratios of what is smaller stay finite; no unit makes a stroke larger
 _STILL = 1e-9  # share of the largest coordinate below which a movement is rounding noise
-_LEAST_STEP = 1e-9  # s
+LEAST_STEP = 1e-9  # s
 
 
 def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) -> NDArray[np.float64]:
@@ -87,7 +87,7 @@ def increasing_times(value: ArrayLike, where: str, count: int) -> NDArray[np.flo
         InvalidInputError: If they are not.
     """
     times = finite_array(value, where, (count,))
-    still = np.flatnonzero(np.diff(times) < _LEAST_STEP)
+    still = np.flatnonzero(np.diff(times) < LEAST_STEP)
     if len(still):
         i = int(still[0])
         first, second = told_apart(times[i], times[i + 1])

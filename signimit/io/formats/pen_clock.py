@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError
 from signimit.io.formats.import_report import Finding
-from signimit.validation import finite_array, told_apart
+from signimit.validation import LEAST_STEP, finite_array, told_apart
 
 MAX_STEP_BACK = 0.016  # s: one tick of the coarsest clock in use, the 64 Hz timer of Windows; more is no jitter
 LEAST_DURATION = 0.01  # s: no hand draws anything in less,
@@ -182,6 +182,8 @@ def _why_no_clock(stamps: Sequence[Stamps]) -> str:
 def spread_ties(stamps: NDArray[np.float64]) -> NDArray[np.float64]:
     """Give equal time stamps, shape (T,), equal shares of the time to the next one, 1 ms for the last.
 
+    Stamps less than a nanosecond apart are equal: what differs there is rounding.
+
     Raises:
         InvalidInputError: If the clock runs backwards.
     """
@@ -191,6 +193,8 @@ def spread_ties(stamps: NDArray[np.float64]) -> NDArray[np.float64]:
         i = int(back[0])
         first, second = told_apart(stamps[i], stamps[i + 1])
         raise InvalidInputError("time stamps", "a clock that runs forward", f"{first} s then {second} s")
+    apart = np.diff(stamps, prepend=-np.inf) >= LEAST_STEP
+    stamps = np.maximum.accumulate(np.where(apart, stamps, -np.inf))
     values, starts, counts = np.unique(stamps, return_index=True, return_counts=True)
     gaps = np.append(np.diff(values), 0.001)
     rank = np.arange(len(stamps)) - np.repeat(starts, counts)

@@ -147,6 +147,11 @@ def test_equal_stamps_share_the_time_to_the_next() -> None:
     assert_allclose(spread_ties(np.array([0, 0, 0.03, 0.05, 0.05])), [0, 0.015, 0.03, 0.05, 0.0505])
 
 
+def test_stamps_that_differ_by_rounding_are_equal() -> None:
+    stamps = np.array([0, 0.1, 0.1 + 1e-17, 0.1 + 5e-10, 0.3])
+    assert_allclose(spread_ties(stamps), [0, 0.1, 0.1 + 0.2 / 3, 0.1 + 0.4 / 3, 0.3])
+
+
 @given(st.lists(st.integers(0, 20), min_size=2, max_size=40))
 @settings(deadline=None, derandomize=True, max_examples=60)
 def test_mended_stamps_rise_and_stay_between_their_neighbours(ticks: list[int]) -> None:
