@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -18,7 +19,7 @@ from signimit.paths import step_lengths
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.validation import finite_array
 
-MOST_STEPS = 1000  # of a bridge
+MOST_STEPS, MOST_BRIDGED = 1000, 1_000_000  # of a bridge, of all bridges of a drawing
 SAMPLE_TIME = 0.01  # s, between points of recordings without time stamps
 Points = NDArray[np.float64]
 Times = NDArray[np.float64]
@@ -154,7 +155,7 @@ def mend_recording(recording: PenRecording) -> MendedStroke:
         timing = piece_times(stamps, counts, own, recording.sample_time, recording.where)
         findings = list(timing.findings)
         pieces = [pieces[i] for i in timing.order]
-        bridges = [_bridge_steps(pieces, i) for i in range(len(pieces) - 1)]
+        bridges = _bridge_steps(pieces)
         points = _joined(pieces, bridges)
         if timing.stamps is None:
             times = recording.sample_time * np.arange(len(points), dtype=np.float64)
@@ -169,12 +170,13 @@ def mend_recording(recording: PenRecording) -> MendedStroke:
         raise FileFormatError(f"{recording.where}: {error.where}", error.expected, error.found) from None
 
 
-def _bridge_steps(pieces: Sequence[Points], i: int) -> int:
-    """Return in how many steps the gap after piece i is crossed."""
+def _bridge_steps(pieces: Sequence[Points]) -> list[int]:
+    """Return in how many steps the gap after each piece but the last is crossed."""
     steps = step_lengths(np.concatenate(pieces))
-    median = float(np.median(steps)) or float(steps.max())
-    gap = float(np.linalg.norm(pieces[i + 1][0] - pieces[i][-1]))
-    return max(1, int(min(gap / median, MOST_STEPS))) if median else 1
+    median = (float(np.median(steps)) or float(steps.max())) if len(steps) else 0.0
+    most = min(MOST_STEPS, MOST_BRIDGED // len(pieces))
+    gaps = [float(np.linalg.norm(after[0] - before[-1])) for before, after in pairwise(pieces)]
+    return [max(1, int(min(gap / median, most))) if median else 1 for gap in gaps]
 
 
 def _joined(pieces: Sequence[Points], bridges: Sequence[int]) -> Points:

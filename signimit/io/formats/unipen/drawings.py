@@ -17,12 +17,21 @@ from signimit.io.formats.pen_clock import relative_seconds
 from signimit.io.formats.pen_recording import SAMPLE_TIME, PenFile, PenRecording, library_from_pen_file
 from signimit.io.formats.textfile import read_any_text
 from signimit.io.formats.unipen.pen_data import Component, PenReader
-from signimit.io.formats.unipen.segments import Segment, Slice, choose_level, find_slices, read_segment
+from signimit.io.formats.unipen.segments import (
+    Segment,
+    Slice,
+    choose_level,
+    choose_numbering,
+    find_slices,
+    read_segment,
+    segments_of_level,
+)
 from signimit.io.formats.unipen.statements import StatementReader
 from signimit.strokes import StrokeLibrary
 
 TIME_UNIT = 1e-3  # s, of channel T
 MOST_SEGMENTS = 100_000
+_BY_PLACE = "numbers of components of a larger file: segments taken to be what follows them"
 _UCI_COMMENT = re.compile(r"\s+(?P<label>\S+)\s+(?P<writer>\d+)\s+\d+\s*")
 
 
@@ -71,13 +80,16 @@ def parse_unipen(text: str, path: str | os.PathLike[str], level: str | None = No
         segments, level = [Segment("", None, "", where, 0)], None
         findings.append(Finding(where, "no .SEGMENT: the whole file taken as one drawing", kind="assumed"))
     levels = choose_level(segments, contents.hierarchy, level)
-    found = find_slices(segments, levels, components, where)
-    labelled = any(segment.label for segment, _ in found)
+    chosen = segments_of_level(segments, levels, len(components))
+    numbering = choose_numbering(chosen, components, where)
+    if what := _BY_PLACE if numbering is None else numbering.what:
+        findings.append(Finding(where, what, kind="assumed"))
+    labelled = any(placed.segment.label for placed in chosen)
     recordings, left_out, used = [], [], set[int]()
-    for segment, slices in found:
+    for placed in chosen:
+        segment = placed.segment
         try:
-            if isinstance(slices, FileFormatError):
-                raise slices
+            slices = find_slices(placed, numbering, components)
             used.update(s.component for s in slices)
             if labelled and not segment.label:
                 raise FileFormatError(segment.where, '.SEGMENT level first-last quality "label"', "no label")
@@ -104,11 +116,14 @@ def _read_contents(text: str, where: str) -> _Contents:
     statements, pen = StatementReader(where), PenReader()
     segments: list[Segment] = []
     hierarchy: list[str] = []
+    base = 0
     for statement in statements.read(text):
         if statement.keyword == "SEGMENT":
             if len(segments) == MOST_SEGMENTS:
                 raise FileFormatError(statement.where, f"at most {MOST_SEGMENTS} segments", "more")
-            segments.append(read_segment(statement, len(pen.components)))
+            segments.append(read_segment(statement, len(pen.components), base))
+        elif statement.keyword == "START_SET":
+            base = len(pen.components)
         elif statement.keyword == "HIERARCHY":
             hierarchy = statement.body.split()
         elif statement.keyword == "COMMENT":

@@ -18,7 +18,7 @@ from signimit.io.formats.import_report import Finding
 from signimit.io.formats.unipen.statements import Statement
 
 MOST_COMPONENTS = 100_000
-LONGEST_LINE = 1_000_000  # characters
+LONGEST_LINE, LONGEST_WRITER = 1_000_000, 200  # characters
 RATES = (10.0, 1000.0)  # points a second that a tablet can mean; files also state rates of a serial line, such as 9600
 PER_MM = {"INCH": 1 / 25.4, "MM": 1.0}
 _RESOLUTION = re.compile(r"(?:([XY])_)?POINTS_PER_(INCH|MM)")
@@ -31,6 +31,7 @@ class Component(NamedTuple):
     Attributes:
         down: Whether the pen was down.
         points: Shape (T, 2), in units of X, y up.
+        switch: Its number among all times that the pen was put down or taken up, also those without points.
         stamps: Channel T as written, shape (T,); none without one.
         run: Number of the stretch of components between which the time is known, from pen-up points or ``.DT``.
         start: Time of the first point since its stretch began, s.
@@ -41,6 +42,7 @@ class Component(NamedTuple):
 
     down: bool
     points: NDArray[np.float64] = _NOTHING
+    switch: int = 0
     stamps: NDArray[np.float64] | None = None
     run: int = 0
     start: float = 0.0
@@ -67,6 +69,7 @@ class PenReader:
     _interval: float | None = None
     _gap: float = 0.0  # s, told by .DT since the last component
     _end: float = 0.0  # s, of the last point in its stretch
+    _switches: int = 0
     _lifts: set[str] = field(default_factory=set)  # ways in which the pen was taken up: bare, recorded, unsaid
     _down: tuple[str, int] | None = None  # place and number of the component that is not ended
 
@@ -81,13 +84,14 @@ class PenReader:
             drawn = bool(body) and not body.isspace()
             if self._down or keyword == "PEN_UP":
                 self._lifts.add("unsaid" if keyword == "PEN_DOWN" else "recorded" if drawn else "bare")
+            self._switches += 1
             self._down = (statement.where, len(self.components)) if keyword == "PEN_DOWN" else None
             if drawn:
                 self._add_component(statement)
         elif keyword == "DT":
             self._gap += (_positive_number(body) or 0.0) / 1000
         elif keyword == "WRITER_ID":
-            self.writer = " ".join(body.split()) or self.writer
+            self.writer = " ".join(body.partition("\n")[0].split())[:LONGEST_WRITER] or self.writer
         elif keyword == "COORD":
             self._channels = tuple(body.upper().split())
             if [self._channels.count(axis) for axis in "XY"] != [1, 1] or self._channels.count("T") > 1:
@@ -113,7 +117,7 @@ class PenReader:
         try:
             rows = _read_numbers(statement, self._channels)
         except FileFormatError as error:
-            self.components.append(Component(down, error=error, run=len(self.components), writer=self.writer))
+            self.components.append(Component(down, switch=self._switches - 1, run=len(self.components), error=error))
             return
         points = rows[:, [self._channels.index("X"), self._channels.index("Y")]]
         if len(self._per_mm) == 2 and not math.isclose(self._per_mm["X"], self._per_mm["Y"], rel_tol=1e-6):
@@ -121,7 +125,9 @@ class PenReader:
         stamps = self._known_stamps(rows[:, self._channels.index("T")], statement) if "T" in self._channels else None
         run, start = self._clock(down)
         self._end, self._gap = start + (len(points) - 1) * (self._interval or 0.0), 0.0
-        self.components.append(Component(down, points, stamps, run, start, self._interval, self.writer))
+        self.components.append(
+            Component(down, points, self._switches - 1, stamps, run, start, self._interval, self.writer)
+        )
 
     def _clock(self, down: bool) -> tuple[int, float]:
         """Return in which stretch the next component begins, and when: one step after a recorded change of the pen."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ from signimit.io.formats.unipen.pen_data import Component
 from signimit.io.formats.unipen.statements import Statement
 
 QUALITIES = ("?", "OK", "BAD", "GOOD", "ACCEPT", "REJECT")
+LONGEST_LABEL = 1000  # characters
 MOST_SHARING = 4  # drawings of one level that a component may be in, on the average
 _SPAN = re.compile(r"(\d{1,9})(?::(\d{1,9}))?(?:-(\d{1,9})(?::(\d{1,9}))?)?")
 _QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"', re.DOTALL)
@@ -50,6 +52,7 @@ class Segment(NamedTuple):
         label: What they are; empty if it does not say.
         where: File and line.
         after: How many components stand before it.
+        base: How many of them stand before the last ``.START_SET``.
         error: Why it cannot be understood.
     """
 
@@ -58,15 +61,17 @@ class Segment(NamedTuple):
     label: str
     where: str
     after: int
+    base: int = 0
     error: FileFormatError | None = None
 
 
-def read_segment(statement: Statement, after: int) -> Segment:
+def read_segment(statement: Statement, after: int, base: int = 0) -> Segment:
     """Read a statement such as ``.SEGMENT WORD 3-5,8:0-8:20 OK "house"``; all but the level may be missing.
 
     Args:
         statement: The statement.
         after: How many components stand before it.
+        base: How many of them stand before the last ``.START_SET``.
     """
     head, quote, tail = statement.body.partition('"')
     level, *rest = head.split(maxsplit=1) or [""]
@@ -79,13 +84,20 @@ def read_segment(statement: Statement, after: int) -> Segment:
     if words and words[0].upper() in QUALITIES:
         del words[0]
     label = _read_label(quote + tail) if quote else "".join(words[:1])
-    segment = Segment(level, spans, label, statement.where, after)
-    backwards = any((s.last, s.last_point or s.first_point) < (s.first, s.first_point) for s in spans or ())
+    segment = Segment(level, spans, label, statement.where, after, base)
+    backwards = any(s.last < s.first or (s.last == s.first and _end(s) < s.first_point) for s in spans or ())
     if level and len(words) <= (not quote) and len(spans or ()) == len(parts) and not backwards:
-        return segment
-    found_text = repr(f".SEGMENT{statement.body}".strip()[:60])
+        if len(label) <= LONGEST_LABEL:
+            return segment
+        error = FileFormatError(statement.where, f"a label of at most {LONGEST_LABEL} characters", f"{len(label)}")
+        return segment._replace(label="", spans=None, error=error)
+    found_text = repr(f".SEGMENT{statement.body[:80]}".strip()[:60])
     error = FileFormatError(statement.where, '.SEGMENT level first-last quality "label"', found_text)
     return segment._replace(spans=None, error=error)
+
+
+def _end(span: Span) -> int:
+    return span.first_point if span.last_point is None else span.last_point
 
 
 def _span(first: str, first_point: str | None, last: str | None, last_point: str | None) -> Span:
@@ -116,7 +128,8 @@ def choose_level(segments: Sequence[Segment], hierarchy: Sequence[str], wanted: 
         UnknownNameError: If no segment is of the wanted level.
     """
     present = dict.fromkeys(segment.level for segment in segments)
-    ranked = [level for level in present if level not in hierarchy] + [x for x in hierarchy if x in present]
+    declared = dict.fromkeys(hierarchy)
+    ranked = [level for level in present if level not in declared] + [x for x in declared if x in present]
     if wanted is None:
         labelled = {segment.level for segment in segments if segment.label}
         wanted = next((level for level in reversed(ranked) if level in labelled), ranked[-1])
@@ -125,46 +138,126 @@ def choose_level(segments: Sequence[Segment], hierarchy: Sequence[str], wanted: 
     return ranked[: ranked.index(wanted) + 1]
 
 
-def find_slices(
-    segments: Sequence[Segment], levels: Sequence[str], components: Sequence[Component], path: str
-) -> list[tuple[Segment, list[Slice] | FileFormatError]]:
-    """Find the points of each segment of the last of the levels, or what is wrong with it.
+class Placed(NamedTuple):
+    """A segment and the components that stand between it and the next one of its level, or of an outer one."""
 
-    Components are counted from 0 through the file and what it includes. Excerpts of larger files, such as UCI's
-    pendigits, keep the numbers of the whole: there, a segment is about the components that follow it. That is taken to
-    be so if more segments are followed by just as many components as they name than name some that exist and that no
-    segment before them has named.
+    segment: Segment
+    following: range
+
+
+def segments_of_level(segments: Sequence[Segment], levels: Sequence[str], count: int) -> list[Placed]:
+    """Return the segments of the last of the levels, and those of no level, with what follows each.
+
+    Args:
+        segments: All segments of a file.
+        levels: Levels from the outermost to the one that is wanted.
+        count: How many components the file has.
+    """
+    bounds = set(levels)
+    bounding = [segment for segment in segments if segment.level in bounds or segment.error]
+    ends = [*(segment.after for segment in bounding[1:]), count]
+    placed = [Placed(s, range(s.after, end)) for s, end in zip(bounding, ends, strict=True)]
+    return [p for p in placed if p.segment.level in ("", levels[-1])]
+
+
+class Numbering(NamedTuple):
+    """What the numbers in segments count.
+
+    Attributes:
+        what: In words; empty for that of the reference library.
+        numbers: Number of each component, rising.
+        end: First number that does not exist.
+        from_set: Whether they begin anew with each ``.START_SET``.
+    """
+
+    what: str
+    numbers: Sequence[int]
+    end: int
+    from_set: bool = False
+
+    def find_components(self, segment: Segment) -> list[range]:
+        """Return which components each span of a segment is about.
+
+        Raises:
+            FileFormatError: If it names one that does not exist.
+        """
+        found, base = [], segment.base if self.from_set else 0
+        for span in segment.spans or ():
+            first, last = base + span.first, base + span.last
+            if last >= self.end:
+                exist = f"{len(self.numbers)} components, from 0"
+                raise FileFormatError(segment.where, f"component {last} of {segment.label!r}", exist)
+            found.append(range(bisect_left(self.numbers, first), bisect_right(self.numbers, last)))
+        return found
+
+
+def choose_numbering(placed: Sequence[Placed], components: Sequence[Component], path: str) -> Numbering | None:
+    """Find out what the numbers in segments count; none if the segments are about the components that follow them.
+
+    The reference library counts components with points through the file and what it includes, from 0. Others count
+    bare ``.PEN_UP`` too, or begin anew with each ``.START_SET``. Excerpts of larger files, such as UCI's pendigits,
+    keep the numbers of the whole: there, a segment is about what follows it. It is the first of these that most
+    segments fit: those whose components exist and are in no segment before, or are as many as follow.
+
+    Args:
+        placed: The segments of a level.
+        components: All components of the file.
+        path: The file, for errors.
 
     Raises:
         FileFormatError: If the segments repeat more components than they can mean.
     """
-    bounding = [segment for segment in segments if segment.level in levels or segment.error]
-    ends = [*(segment.after for segment in bounding[1:]), len(components)]
-    chosen = [
-        (s, range(s.after, end)) for s, end in zip(bounding, ends, strict=True) if s.level == levels[-1] or not s.level
-    ]
-    existing = [s for s, _ in chosen if s.spans and all(span.last < len(components) for span in s.spans)]
-    if sum(map(_size, existing)) > MOST_SHARING * len(components) + 1000:
-        raise FileFormatError(
-            path, f"a component in at most {MOST_SHARING} segments of a level", "more, on the average"
-        )
-    by_place = sum(_is_whole(segment) and _size(segment) == len(following) for segment, following in chosen)
-    by_number, taken = 0, set[int]()
-    for segment in existing:
-        named = {n for span in segment.spans or () for n in range(span.first, span.last + 1)}
-        by_number += not _is_whole(segment) or taken.isdisjoint(named)
-        taken |= named
-    found: list[tuple[Segment, list[Slice] | FileFormatError]] = []
-    for segment, following in chosen:
-        in_place = segment.spans is None or by_place > by_number
-        try:
-            if segment.error:
-                raise segment.error
-            slices = _following(segment, following, components) if in_place else _numbered(segment, components)
-            found.append((segment, slices))
-        except FileFormatError as error:
-            found.append((segment, error))
-    return found
+    count, switches = len(components), [component.switch for component in components]
+    best, best_score = Numbering("", range(count), count), -1
+    for numbering in (
+        best,
+        Numbering("numbers of components that count bare .PEN_UP too", switches, switches[-1] + 2),
+        Numbering("numbers of components that begin anew with each .START_SET", range(count), count, True),
+    ):
+        score, taken, named = 0, set[int](), 0
+        for segment, _ in placed:
+            try:
+                ranges = numbering.find_components(segment)
+            except FileFormatError:
+                continue
+            named += sum(map(len, ranges))
+            if named > MOST_SHARING * count + 1000:
+                found = "more, on the average"
+                raise FileFormatError(path, f"a component in at most {MOST_SHARING} segments of a level", found)
+            numbers = {n for each in ranges for n in each}
+            score += bool(numbers) and (not _is_whole(segment) or taken.isdisjoint(numbers))
+            taken |= numbers
+        if score > best_score:
+            best, best_score = numbering, score
+    in_place = sum(_is_whole(segment) and _size(segment) == len(following) for segment, following in placed)
+    return None if in_place > best_score else best
+
+
+def find_slices(placed: Placed, numbering: Numbering | None, components: Sequence[Component]) -> list[Slice]:
+    """Find the points of a segment.
+
+    Raises:
+        FileFormatError: If they do not exist, or the segment cannot be understood.
+    """
+    segment, following = placed
+    if segment.error:
+        raise segment.error
+    size = _size(segment)
+    if segment.spans is None or numbering is None:
+        if not following or (segment.spans and not (_is_whole(segment) and size == len(following))):
+            expected = f"{size or 'the'} component{'s' * (size != 1)} of {segment.label!r} after .SEGMENT"
+            raise FileFormatError(segment.where, expected, f"{len(following) or 'none'}")
+        return [Slice(n, 0, len(components[n].points)) for n in following]
+    slices = []
+    for span, numbers in zip(segment.spans, numbering.find_components(segment), strict=True):
+        for n in numbers:
+            count = len(components[n].points)
+            start = span.first_point if n == numbers[0] else 0
+            stop = count if n < numbers[-1] or span.last_point in (None, count) else (span.last_point or 0) + 1
+            if components[n].error is None and not start < stop <= count:
+                raise FileFormatError(segment.where, f"points {start} to {stop - 1} of component {n}", f"{count}")
+            slices.append(Slice(n, start, stop))
+    return slices
 
 
 def _size(segment: Segment) -> int:
@@ -175,28 +268,3 @@ def _size(segment: Segment) -> int:
 def _is_whole(segment: Segment) -> bool:
     """Tell whether a segment names components, and no points in them."""
     return bool(segment.spans) and all(not s.first_point and s.last_point is None for s in segment.spans or ())
-
-
-def _following(segment: Segment, following: range, components: Sequence[Component]) -> list[Slice]:
-    size = _size(segment)
-    if not following or (segment.spans and not (_is_whole(segment) and size == len(following))):
-        expected = f"{size or 'the'} component{'s' * (size != 1)} of {segment.label!r} after .SEGMENT"
-        raise FileFormatError(segment.where, expected, f"{len(following) or 'none'}")
-    return [Slice(n, 0, len(components[n].points)) for n in following]
-
-
-def _numbered(segment: Segment, components: Sequence[Component]) -> list[Slice]:
-    slices = []
-    for span in segment.spans or ():
-        if span.last >= len(components):
-            raise FileFormatError(
-                segment.where, f"component {span.last} of {segment.label!r}", f"{len(components)} components, from 0"
-            )
-        for n in range(span.first, span.last + 1):
-            count = len(components[n].points)
-            start = span.first_point if n == span.first else 0
-            stop = count if n < span.last or span.last_point in (None, count) else (span.last_point or 0) + 1
-            if components[n].error is None and not start < stop <= count:
-                raise FileFormatError(segment.where, f"points {start} to {stop - 1} of component {n}", f"{count}")
-            slices.append(Slice(n, start, stop))
-    return slices

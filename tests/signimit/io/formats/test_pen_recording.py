@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from signimit import FileFormatError
+from signimit.io.formats import pen_recording
 from signimit.io.formats.import_report import StrokeImportWarning
 from signimit.io.formats.pen_recording import (
     PenFile,
@@ -43,6 +44,12 @@ def test_pieces_that_touch_or_are_empty_need_no_bridge() -> None:
 def test_a_bridge_over_an_absurd_gap_is_bounded() -> None:
     pieces = [np.array([(0, 0), (1e-9, 0), (2e-9, 0)]), np.array([(1e9, 0), (1e9, 1e-9), (1e9, 2e-9)])]
     assert len(stroke_from_recording(recording(pieces))) < 2000
+
+
+def test_absurd_gaps_between_many_pieces_are_bounded_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pen_recording, "MOST_BRIDGED", 50)
+    pieces = [np.array([(1e9 * i, 0), (1e9 * i, 1e-9), (1e9 * i, 2e-9)]) for i in range(5)]
+    assert len(stroke_from_recording(recording(pieces))) == 5 * 3 + 4 * 9  # bridges of 10 steps each
 
 
 def test_a_stamp_that_steps_back_keeps_the_points_and_the_duration() -> None:

@@ -25,6 +25,7 @@ def test_a_component_is_a_pen_down_or_pen_up_that_has_points() -> None:
         (False, [[5, 6]]),
         (True, [[7, 8], [0.5, -10]]),
     ]
+    assert [c.switch for c in pen.components] == [0, 2, 4]
 
 
 @pytest.mark.parametrize(

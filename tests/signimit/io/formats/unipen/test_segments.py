@@ -4,7 +4,17 @@ import pytest
 
 from signimit import FileFormatError, UnknownNameError
 from signimit.io.formats.unipen.pen_data import Component, PenReader
-from signimit.io.formats.unipen.segments import Segment, Slice, Span, choose_level, find_slices, read_segment
+from signimit.io.formats.unipen.segments import (
+    Numbering,
+    Segment,
+    Slice,
+    Span,
+    choose_level,
+    choose_numbering,
+    find_slices,
+    read_segment,
+    segments_of_level,
+)
 from signimit.io.formats.unipen.statements import Statement, StatementReader
 
 
@@ -74,8 +84,8 @@ def test_labels_are_quoted_and_escaped_or_nearly_so(quoted: str, label: str) -> 
     assert segment(f" CHARACTER 0 ? {quoted}\n").label == label
 
 
-NO_SEGMENTS = ("", ' C 1x ? "a"', ' C 5-3 ? "a"', ' C 2:9-2:3 ? "a"', ' C 3- ? "a"', ' C 1,,2 ? "a"', ' C -1 ? "a"',
-               " C 1 OK a b", f' C {"1" * 5000} ? "a"')  # fmt: skip
+NO_SEGMENTS = ("", ' C 1x ? "a"', ' C 5-3 ? "a"', ' C 2:9-2:3 ? "a"', ' C 2:9-2:0 ? "a"', ' C 3- ? "a"',
+               ' C 1,,2 ? "a"', ' C -1 ? "a"', " C 1 OK a b", f' C {"1" * 5000} ? "a"')  # fmt: skip
 
 
 @pytest.mark.parametrize("text", NO_SEGMENTS)
@@ -113,9 +123,17 @@ def test_a_level_that_is_not_there_is_refused_with_those_that_are() -> None:
 
 
 def found(texts: list[tuple[str, int]], sizes: list[int], levels: tuple[str, ...] = ("C",)) -> list[object]:
-    segments = [segment(text, after) for text, after in texts]
-    slices = find_slices(segments, levels, components(sizes), "a.dat")
-    return [str(s) if isinstance(s, FileFormatError) else s for _, s in slices]
+    """Slices, or the sentence that says why there are none, for segments of a text and how many components before."""
+    parts = components(sizes)
+    chosen = segments_of_level([segment(text, after) for text, after in texts], levels, len(parts))
+    numbering = choose_numbering(chosen, parts, "a.dat")
+    results: list[object] = []
+    for placed in chosen:
+        try:
+            results.append(find_slices(placed, numbering, parts))
+        except FileFormatError as error:
+            results.append(str(error))
+    return results
 
 
 def test_components_are_counted_from_0_wherever_the_segments_stand() -> None:
@@ -156,6 +174,33 @@ def test_numbers_of_a_larger_file_mean_the_components_that_follow() -> None:
         [Slice(0, 0, 5)],
         "a.dat: line 1: expected 3 components of 'b' after .SEGMENT, found 2.",
         "a.dat: line 1: expected 1 component of 'c' after .SEGMENT, found 1.",
+    ]
+
+
+def test_numbers_may_begin_anew_with_each_start_set() -> None:
+    texts = [(' C 0 ? "a"', 0, 0), (' C 1 ? "b"', 0, 0), (' C 0 ? "c"', 2, 2), (' C 1 ? "d"', 2, 2)]
+    segments = [segment(text, after)._replace(base=base) for text, after, base in texts]
+    parts = components([5, 6, 7, 8])
+    chosen = segments_of_level(segments, ["C"], 4)
+    numbering = choose_numbering(chosen, parts, "a.dat")
+    assert numbering is not None
+    assert numbering.what == "numbers of components that begin anew with each .START_SET"
+    assert [find_slices(placed, numbering, parts) for placed in chosen] == [[Slice(n, 0, 5 + n)] for n in range(4)]
+    through = segments_of_level([s._replace(spans=whole(n)) for n, s in enumerate(segments)], ["C"], 4)
+    assert choose_numbering(through, parts, "a.dat") == Numbering("", range(4), 4)
+
+
+def test_numbers_may_count_every_pen_up() -> None:
+    texts = [(' C 0-3 ? "a"', 0), (' C 4:1-4:5 ? "b"', 0), (' C 6 ? "c"', 0)]
+    parts = [part._replace(switch=2 * n) for n, part in enumerate(components([5, 6, 7, 8]))]
+    chosen = segments_of_level([segment(text, after) for text, after in texts], ["C"], 4)
+    numbering = choose_numbering(chosen, parts, "a.dat")
+    assert numbering is not None
+    assert numbering.what == "numbers of components that count bare .PEN_UP too"
+    assert [find_slices(placed, numbering, parts) for placed in chosen] == [
+        [Slice(0, 0, 5), Slice(1, 0, 6)],
+        [Slice(2, 1, 6)],
+        [Slice(3, 0, 8)],
     ]
 
 
