@@ -76,10 +76,11 @@ def import_strokes(paths: StrokePaths, format: str = AUTO, strict: bool = False)
     parts = _without_included([part for path in named for part in _import_path(path, format)])
     report = ImportReport(tuple(part.report for part in parts))
     libraries = [part.library for part in parts if len(part.library)]
-    if report.left_out and (strict or not libraries):
+    if report.left_out and (strict or (not libraries and len(report.left_out) == 1)):
         raise report.left_out[0]
     if not libraries:
-        raise FileFormatError(", ".join(map(str, named)) or "no path", "files with strokes", "none")
+        found = f"none ({report.summary().removesuffix('.')})" if report.left_out else "none"
+        raise FileFormatError(", ".join(map(str, named)) or "no path", "files with strokes", found)
     sources = list(dict.fromkeys(library.source for library in libraries))
     if len(sources) > _MOST_SOURCES:
         sources[_MOST_SOURCES:] = [f"{len(sources) - _MOST_SOURCES} more"]

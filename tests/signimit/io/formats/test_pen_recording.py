@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from signimit import FileFormatError
@@ -103,6 +105,28 @@ def test_dots_alone_are_a_drawing_if_there_are_two() -> None:
         [np.array([(0.0, 0)]), np.array([(0.0, 0)]), np.array([(3.0, 0)])], [np.array([t]) for t in (1.0, 2, 3)]
     )
     assert_allclose(stroke_from_recording(dots).times, [0, 1, 1.5, 2])
+
+
+clocks = st.lists(st.sampled_from([0, 0.001, 0.008, 0.016, 0.1, -0.001, -0.02, 1e-17, 1e6]), max_size=6)
+wild = st.tuples(clocks, st.sampled_from([1.0, 1e-3, 1e6, 0.0]), st.sampled_from([0.0, 1.3e9, -1.0]), st.booleans())
+
+
+@given(st.lists(wild, max_size=4), st.booleans())
+@settings(deadline=None, derandomize=True, max_examples=150)
+def test_whatever_the_clocks_all_points_are_kept_and_times_rise_or_it_is_refused(
+    pieces: list[tuple[list[float], float, float, bool]], own: bool
+) -> None:
+    points = [np.arange(2.0 * len(steps)).reshape(-1, 2) + 10 * i for i, (steps, *_) in enumerate(pieces)]
+    stamps = [start + unit * np.cumsum(steps) if stamped else None for steps, unit, start, stamped in pieces]
+    given_clock = recording(points, stamps)._replace(clock="own" if own else "shared")
+    try:
+        stroke = stroke_from_recording(given_clock)
+    except FileFormatError:
+        return
+    assert stroke.times[0] == 0
+    assert (np.diff(stroke.times) > 0).all()
+    drawn = {tuple(point) for point in stroke.points.tolist()}
+    assert {tuple(point) for piece in points for point in piece.tolist()} <= drawn
 
 
 def test_a_bad_drawing_is_left_out_named_and_warned_of() -> None:

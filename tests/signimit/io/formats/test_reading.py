@@ -139,6 +139,13 @@ def test_what_cannot_be_read_is_said(folder: Path, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     with pytest.raises(FileFormatError, match="empty: expected files with strokes, found none"):
         read_strokes([tmp_path / "empty"])
+    for name in ("a.xml", "b.xml"):
+        (tmp_path / "empty" / name).write_text("<Gesture>")
+    found = (
+        r"empty: expected files with strokes, found none \(drawings: 0 read, 0 of them repaired, 2 left out; .*a\.xml"
+    )
+    with pytest.raises(FileFormatError, match=found):
+        read_strokes([tmp_path / "empty"])
     with pytest.raises(FileFormatError, match="no path: expected files with strokes, found none"):
         read_strokes([])
     with pytest.raises(FileNotFoundError):
