@@ -6,10 +6,9 @@ import ast
 import copy
 import pickle
 import re
-import sys
 from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from types import MethodType, SimpleNamespace
+from types import MethodType
 from typing import Any, NamedTuple
 
 import gymnasium as gym
@@ -36,7 +35,6 @@ from signimit_envs.video.films import film_shots
 from signimit_envs.video.rendering import OffscreenView
 from signimit_envs.video.scene_renderer import SceneRenderer
 from signimit_envs.video.storyboard import Shot
-from signimit_envs.video.window import WindowView
 
 PICTURE = (32, 32)  # pixels
 START = {"movement": 0, "focus": 1, "objects": [[-0.15, 0.1], [0.02, -0.1], [0.18, 0.08]], "hand": [0.1, 0.0]}
@@ -173,7 +171,7 @@ UNCOPIED = {  # classes that hold an environment or MuJoCo's memory, and are not
     "TrainingPlan": "makes environments and keeps none",
     "RecordingOrigin": "compiles models and keeps none",
     "RecordMp4": "test_a_copy_of_a_film_recorder_films_from_its_next_episode_on",
-    "WindowView": "test_a_copy_of_a_window_opens_one_of_its_own",
+    "WindowView": "in test_window.py",
     "TabletopHandEnv": "a TabletopEnv",
     "JointControl": "within TabletopEnv",
     "HandControl": "within TabletopEnv",
@@ -268,33 +266,6 @@ def test_a_copy_of_a_film_recorder_films_from_its_next_episode_on(way: str, tmp_
     lengths = {file.name: imageio_ffmpeg.count_frames_and_secs(file)[0] for file in tmp_path.iterdir()}
     # the first episode with two frames before the copy, then the second of the copy, then the original's
     assert lengths == {"episode-0000.mp4": 5, "episode-0001.mp4": 2, "episode-0002.mp4": 2}
-
-
-@pytest.mark.parametrize("way", COPIES)
-def test_a_copy_of_a_window_opens_one_of_its_own(way: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    opened = []
-
-    class Viewer:
-        def __init__(self, model: object, data: object, **options: object) -> None:
-            self.data, self.syncs = data, 0
-            opened.append(self)
-
-        def sync(self) -> None:
-            self.syncs += 1
-
-        def __reduce__(self) -> str:
-            raise TypeError("windows cannot be copied")
-
-    monkeypatch.setattr("signimit_envs.video.window.opens_windows", lambda: True)
-    monkeypatch.setattr("signimit_envs.video.window.has_display", lambda: True)
-    monkeypatch.setitem(sys.modules, "mujoco.viewer", SimpleNamespace(launch_passive=Viewer))
-    monkeypatch.setattr("mujoco.viewer", sys.modules["mujoco.viewer"], raising=False)
-    view, data = WindowView(compile_scene()), object()
-    view.show(data)
-    twin = COPIES[way](view)
-    twin.show(None)
-    view.show(data)
-    assert [(viewer.data, viewer.syncs) for viewer in opened] == [(data, 2), (None, 1)]
 
 
 @pytest.mark.parametrize("way", COPIES)

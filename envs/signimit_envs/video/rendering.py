@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import os
 import sys
 import threading
@@ -20,8 +19,7 @@ from signimit_envs.video.backend import INSTALL, choose_backend, use_backend
 
 _FORKED = "this process was forked off one that had drawn with OpenGL, and would wait for a picture for ever"
 _SPAWN = 'Start processes with context="spawn", e.g. make_vec(..., vector_kwargs={"context": "spawn"}).'
-_log = logging.getLogger(__name__)
-_kept: list[_Owned] = []  # renderers that could not be freed where they were closed
+_kept: list[_Owned] = []  # renderers that were closed outside of their threads
 
 
 class _Owned(NamedTuple):
@@ -38,14 +36,14 @@ class _Owned(NamedTuple):
     process: int
 
     def free(self) -> None:
-        """Free the OpenGL context; where that cannot be done, keep it, since its own end would print an error."""
-        try:
-            if self.process == os.getpid():
-                self.renderer.close()
-                return
-        except Exception:  # PyOpenGL's: the context is in use by the thread that opened it
-            _log.debug("a renderer could not be freed outside of its thread", exc_info=True)
-        _kept.append(self)
+        """Free the OpenGL context, or keep it until its own thread opens the next one.
+
+        Freed in another thread, EGL raises an error, and OSMesa ends the process at the next picture.
+        """
+        if (self.thread, self.process) == (threading.current_thread(), os.getpid()):
+            self.renderer.close()
+        else:
+            _kept.append(self)
 
 
 class OffscreenView:

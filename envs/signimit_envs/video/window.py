@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import atexit
 import functools
 import os
 import subprocess
 import sys
-from typing import Any
+import threading
+import weakref
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar
 
 import mujoco
 
@@ -21,6 +25,7 @@ glfw.window_hint(glfw.VISIBLE, False)
 raise SystemExit(not glfw.create_window(16, 16, "", None, None))
 """
 _PROBE_SECONDS = 20  # then the display counts as dead
+_CLOSE_SECONDS = 5  # that a window is waited for as it closes
 
 
 def has_display() -> bool:
@@ -61,7 +66,12 @@ def _missing_window() -> RenderingError | None:
 
 
 class WindowView:
-    """Window of MuJoCo's interactive viewer. A copy opens a window of its own when it first shows something."""
+    """Window of MuJoCo's interactive viewer, one at a time in a process.
+
+    A copy has no window, and opens one when it first shows something.
+    """
+
+    _threads: ClassVar[Sequence[threading.Thread]] = ()  # those of the latest window
 
     def __init__(self, model: mujoco.MjModel) -> None:
         """Show a model; the window opens at the first `show`.
@@ -74,34 +84,53 @@ class WindowView:
             raise missing
         self._model = model
         self._viewer: Any = None
+        self._close: Callable[[], object] | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy needs: not the window."""
+        return {**self.__dict__, "_viewer": None, "_close": None}
 
     def show(self, data: mujoco.MjData) -> None:
         """Bring the window up to date, opening it at the first call.
 
         Raises:
-            RenderingError: If no window can be opened.
+            RenderingError: If no window can be opened, or another one is open.
         """
         if self._viewer is None:
-            self._viewer = self._open(data)
+            self._open(data)
         self._viewer.sync()
 
-    def _open(self, data: mujoco.MjData) -> Any:
+    def _open(self, data: mujoco.MjData) -> None:
         missing = _missing_window()  # a copy may have come to another machine
         if missing is not None:
             raise missing
+        if any(thread.is_alive() for thread in WindowView._threads):  # a second window would end the process
+            raise RenderingError(
+                "MuJoCo shows one window at a time, and another is open", "Close its environment first."
+            )
+        before = threading.enumerate()
         try:
             import mujoco.viewer
 
-            return mujoco.viewer.launch_passive(self._model, data, show_left_ui=False, show_right_ui=False)
+            viewer = mujoco.viewer.launch_passive(self._model, data, show_left_ui=False, show_right_ui=False)
         except (ImportError, RuntimeError, mujoco.FatalError) as error:  # on macOS, not run by mjpython
             raise RenderingError(f"no window could be opened ({error})", _REMEDY) from error
+        WindowView._threads = [thread for thread in threading.enumerate() if thread not in before]
+        self._viewer = viewer
+        self._close = weakref.finalize(self, _close_viewer, viewer, WindowView._threads)
+        # Before the viewer's own functions at exit, which end the process where its thread still draws.
+        atexit.register(self._close)
 
     def close(self) -> None:
         """Close the window; may be called again."""
-        if self._viewer is not None:
-            self._viewer.close()
-            self._viewer = None
+        if self._close is not None:
+            self._close()
+            atexit.unregister(self._close)
+        self._viewer = self._close = None
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Return what a copy needs: not the window."""
-        return {**self.__dict__, "_viewer": None}
+
+def _close_viewer(viewer: Any, threads: Sequence[threading.Thread]) -> None:
+    """Close a window, and wait until its threads are done with it."""
+    viewer.close()
+    for thread in threads:
+        thread.join(_CLOSE_SECONDS)

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import copy
+import gc
 import os
+import pickle
 import subprocess
 import sys
+import threading
+from collections.abc import Callable
+from types import SimpleNamespace
 
 import gymnasium as gym
+import mujoco
 import pytest
 from gymnasium.utils.env_checker import check_env
 
@@ -82,3 +89,67 @@ def test_a_copy_on_a_machine_without_a_display_says_so(monkeypatch: pytest.Monke
     with pytest.raises(RenderingError, match="there is no display"):
         view.show(None)
     view.close()
+
+
+class Viewer:
+    """Stands in for MuJoCo's: it has a thread, and cannot be copied."""
+
+    def __init__(self, model: object, data: object, **options: object) -> None:
+        self.data, self.syncs, self.over = data, 0, threading.Event()
+        threading.Thread(target=self.over.wait).start()
+
+    def sync(self) -> None:
+        self.syncs += 1
+
+    def close(self) -> None:
+        self.over.set()
+
+    def __reduce__(self) -> str:
+        raise TypeError("windows cannot be copied")
+
+
+@pytest.fixture
+def opened(monkeypatch: pytest.MonkeyPatch) -> list[Viewer]:
+    """Windows that were opened, on a display that opens them."""
+    viewers: list[Viewer] = []
+
+    def launch(*scene: object, **options: object) -> Viewer:
+        viewers.append(Viewer(*scene, **options))
+        return viewers[-1]
+
+    monkeypatch.setenv("DISPLAY", ":0")
+    monkeypatch.setattr(window, "_opens", lambda *displays: True)
+    module = SimpleNamespace(launch_passive=launch)
+    monkeypatch.setitem(sys.modules, "mujoco.viewer", module)
+    monkeypatch.setattr(mujoco, "viewer", module, raising=False)
+    return viewers
+
+
+@pytest.mark.parametrize("way", [copy.deepcopy, lambda view: pickle.loads(pickle.dumps(view))])
+def test_a_copy_opens_a_window_of_its_own_once_the_other_is_closed(
+    opened: list[Viewer], way: Callable[[WindowView], WindowView]
+) -> None:
+    """Two at once would end the process."""
+    view, data, other = WindowView(compile_scene()), object(), object()
+    view.show(data)
+    twin = way(view)
+    with pytest.raises(RenderingError, match="one window at a time, and another is open"):
+        twin.show(other)
+    view.show(data)
+    view.close()
+    view.close()
+    twin.show(other)
+    assert [(viewer.data, viewer.syncs) for viewer in opened] == [(data, 2), (other, 1)]
+    twin.close()
+    assert all(viewer.over.is_set() for viewer in opened)
+    assert not any(thread.is_alive() for thread in WindowView._threads)
+
+
+def test_a_window_that_nobody_closes_is_closed_with_its_environment(opened: list[Viewer]) -> None:
+    env = gym.make("signimit/Tabletop-v0", render_mode="human")
+    env.reset(seed=0)
+    env.step(env.action_space.sample())
+    assert opened[0].syncs == 2
+    del env
+    gc.collect()
+    assert opened[0].over.is_set()
