@@ -32,10 +32,11 @@ from signimit.strokes import StrokeLibrary
 TIME_UNIT = 1e-3  # s, of channel T
 MOST_SEGMENTS = 100_000
 _BY_PLACE = "numbers of components of a larger file: segments taken to be what follows them"
+_LIPITK_NAME = re.compile(r"(?P<label>\d+)t\d+")  # 000004t01 is the first 000004
 _UCI_COMMENT = re.compile(r"\s+(?P<label>\S+)\s+(?P<writer>\d+)\s+\d+\s*")
 
 
-def read_unipen(path: str | os.PathLike[str], level: str | None = None, strict: bool = False) -> StrokeLibrary:
+def read_unipen(path: str | os.PathLike[str], strict: bool = False, *, level: str | None = None) -> StrokeLibrary:
     """Read the segments of UNIPEN text, each as one stroke.
 
     A segment is the components that it names (``3-5,8``, or points ``2:10-4:20``), counted from 0, wherever it stands.
@@ -43,16 +44,17 @@ def read_unipen(path: str | os.PathLike[str], level: str | None = None, strict: 
     that keep the numbers of a larger file, as UCI's pendigits do. Components with the pen up count if they have points,
     and are left out of the drawing. A file without segments is one drawing.
 
-    The label is the segment's; without labels, the file's name. The writer is what ``.WRITER_ID`` says, or the second
-    word of UCI's ``.COMMENT``. Y grows upwards, and is told in units of X where the resolutions differ. Time is channel
-    T, in milliseconds; else ``.POINTS_PER_SECOND``, with pauses as long as pen-up points or ``.DT`` say; else points
-    are taken to be 10 ms apart, and ``.DT`` says nothing (in pendigits it is 100 always, so that a digit would last
-    6 s). Other keywords are passed over, ``.START_BOX`` too: coordinates stay as they are written.
+    The label is the segment's; without labels, the file's name (of lipitk's 000004t01, 000004). The writer is what
+    ``.WRITER_ID`` says, or the second word of UCI's ``.COMMENT``. Y grows upwards, and is told in units of X where the
+    resolutions differ. Time is channel T, in milliseconds; else ``.POINTS_PER_SECOND``, with pauses as long as pen-up
+    points or ``.DT`` say; else points are taken to be 10 ms apart, and ``.DT`` says nothing (in pendigits it is 100
+    always, so that a digit would last 6 s). Other keywords are passed over, ``.START_BOX`` too: coordinates stay as
+    they are written.
 
     Args:
         path: The file. What it includes is read from its own folder and below, see `StatementReader`.
-        level: Level of the hierarchy, e.g. ``"WORD"``; left out, the innermost one that has labels.
         strict: Raise the error of the first drawing that would be left out.
+        level: Level of the hierarchy, e.g. ``"WORD"``; left out, the innermost one that has labels.
 
     Raises:
         FileNotFoundError: If there is no such file.
@@ -60,10 +62,10 @@ def read_unipen(path: str | os.PathLike[str], level: str | None = None, strict: 
         UnknownNameError: If the file has no segments of the level.
     """
     document = read_any_text(path)
-    return library_from_pen_file(path, parse_unipen(document.text, path, level), strict, document.findings)
+    return library_from_pen_file(path, parse_unipen(document.text, path, level=level), strict, document.findings)
 
 
-def parse_unipen(text: str, path: str | os.PathLike[str], level: str | None = None) -> PenFile:
+def parse_unipen(text: str, path: str | os.PathLike[str], *, level: str | None = None) -> PenFile:
     """Find the drawings of UNIPEN text as `read_unipen` does.
 
     Raises:
@@ -84,6 +86,8 @@ def parse_unipen(text: str, path: str | os.PathLike[str], level: str | None = No
     numbering = choose_numbering(chosen, components, where)
     if what := _BY_PLACE if numbering is None else numbering.what:
         findings.append(Finding(where, what, kind="assumed"))
+    stem = Path(where).stem
+    unlabelled = found["label"] if (found := _LIPITK_NAME.fullmatch(stem)) else stem
     labelled = any(placed.segment.label for placed in chosen)
     recordings, left_out, used = [], [], set[int]()
     for placed in chosen:
@@ -93,7 +97,7 @@ def parse_unipen(text: str, path: str | os.PathLike[str], level: str | None = No
             used.update(s.component for s in slices)
             if labelled and not segment.label:
                 raise FileFormatError(segment.where, '.SEGMENT level first-last quality "label"', "no label")
-            recordings.append(_recording(segment, slices, components, segment.label or Path(where).stem))
+            recordings.append(_recording(segment, slices, components, segment.label or unlabelled))
         except FileFormatError as error:
             left_out.append(error)
     unused = sum(component.down and n not in used for n, component in enumerate(components))

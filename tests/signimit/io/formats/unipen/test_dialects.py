@@ -169,6 +169,10 @@ def test_lipitk_writes_one_segment_without_label_and_few_stamps(tmp_path: Path) 
     library = read_unipen(path)
     assert library[0].points.tolist() == [[10, 10], [20, 10], [30, 10], [40, 10], [50, 10], [60, 10]]
     assert_allclose(library[0].times, [0, 0.01, 0.02, 0.06, 0.1, 0.11])
+    labels = [
+        parse_unipen(LIPITK, f"usr0/{name}.txt").recordings[0].label for name in ("000004t01", "4t12", "at01", "t01")
+    ]
+    assert labels == ["000004", "4", "at01", "t01"]
 
 
 def test_pendigits_are_read_by_place_and_it_is_said(tmp_path: Path) -> None:
