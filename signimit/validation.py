@@ -97,7 +97,7 @@ def increasing_times(value: ArrayLike, where: str, count: int) -> NDArray[np.flo
 
 def told_apart(first: float, second: float) -> tuple[str, str]:
     """Write two numbers with as few digits, but at least six, as show that they differ, if they do."""
-    pairs = ((f"{first:.{digits}g}", f"{second:.{digits}g}") for digits in (6, 9, 12, 17))
+    pairs = ((f"{first:.{digits}g}", f"{second:.{digits}g}") for digits in range(6, 18))
     return next((pair for pair in pairs if pair[0] != pair[1]), (f"{first:g}", f"{second:g}"))
 
 

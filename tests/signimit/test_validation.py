@@ -81,6 +81,10 @@ def test_a_path_has_two_points_and_moves(value: Any, sentence: str) -> None:
         ([0.0, 1.0, 1.0], "times: expected strictly increasing seconds, found 1 then 1 at index 1."),
         ([0.0, 1.0, 0.5], "times: expected strictly increasing seconds, found 1 then 0.5 at index 1."),
         ([0.0, 1e-300, 1.0], "times: expected strictly increasing seconds, found 0 then 1e-300 at index 0."),
+        (
+            [0.0, 1302126477.139, 1302126477.138],
+            "times: expected strictly increasing seconds, found 1302126477.139 then 1302126477.138 at index 1.",
+        ),
     ],
 )
 def test_times_increase(value: Any, sentence: str) -> None:

@@ -100,12 +100,8 @@ class ImportReport:
         first = next((f"; the first: {f.where}: {f.what}" for f in self.findings if f.kind == "repaired"), "")
         return f"{sentence}{first}."
 
-    def table(self, most: int = 20) -> str:
-        """Return how many files and drawings were read, repaired, left out or passed over, and below it why.
-
-        Args:
-            most: How many of the drawings that were left out are named.
-        """
+    def table(self) -> str:
+        """Return how many files and drawings were read, repaired, left out or passed over, and below it why."""
         files, drawings = Counter(file.status for file in self.files), Counter[str]()
         for file in self.files:
             drawings[READ] += file.drawings - file.repaired
@@ -121,7 +117,4 @@ class ImportReport:
             places[finding.kind, finding.what].add(finding.where)
         for (kind, what), number in counts.most_common():
             lines.append(f"{kind}: {what} ({number} in {len(places[kind, what])} places)")
-        lines += [f"left out: {error}" for error in self.left_out[:most]]
-        if len(self.left_out) > most:
-            lines.append(f"left out: {len(self.left_out) - most} more")
-        return "\n".join(lines)
+        return "\n".join([*lines, *(f"left out: {error}" for error in self.left_out)])

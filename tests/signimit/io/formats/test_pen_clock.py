@@ -165,5 +165,5 @@ def test_mended_stamps_rise_and_stay_between_their_neighbours(ticks: list[int]) 
 def test_ties_of_a_clock_that_runs_backwards_are_refused_with_numbers_that_differ() -> None:
     with pytest.raises(InvalidInputError, match="a clock that runs forward, found 2 s then 1 s"):
         spread_ties(np.array([0, 2, 1.0]))
-    with pytest.raises(InvalidInputError, match=r"found 1302126477\.1389\d* s then 1302126477\.138\d* s"):
+    with pytest.raises(InvalidInputError, match=r"found 1302126477\.139 s then 1302126477\.138 s"):
         spread_ties(np.array([1302126477.139, 1302126477.138]))
