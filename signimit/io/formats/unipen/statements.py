@@ -111,7 +111,8 @@ class StatementReader:
     def _read_included(self, statement: Statement) -> Iterator[Statement]:
         """Go through the statements of an included file, or note why it is passed over."""
         self._count(".INCLUDE statements", MOST_INCLUDES)
-        target = self._find(statement.body.strip().strip('"').replace("\\", "/"), Path(statement.path))
+        name = statement.body.strip().partition("\n")[0].strip(' "').replace("\\", "/")
+        target = self._find(name, Path(statement.path))
         if isinstance(target, Finding):
             self.findings.append(target._replace(where=statement.where))
             return

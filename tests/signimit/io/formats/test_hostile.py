@@ -11,6 +11,11 @@ from signimit import SignimitError, StrokeLibrary
 from signimit.io.formats import StrokeImportWarning, read_dollar, read_inkml, read_unipen
 
 UNIPEN = b'.SEGMENT D 0-1 ? "6"\n.COMMENT 6 13 38\n.PEN_DOWN\n1 2\n3 4\n.PEN_UP\n.PEN_DOWN\n9 2\n8 4\n.PEN_UP\n'
+UNIPEN_LEVELS = (
+    b".VERSION 1.0\n.HIERARCHY WORD C\n.COORD Y X T\n.X_POINTS_PER_MM 5\n.Y_POINTS_PER_INCH 99\n.INCLUDE file\n"
+    b'.SEGMENT WORD 0-2 ? "ab"\n.SEGMENT C 0:1-2,2:0 OK "\\"a"\n.POINTS_PER_SECOND 50\n.DT 30\n'
+    b".PEN_DOWN\n1 2 9\n3 4 0\n5 4 20\n.PEN_UP\n6 4 30\n.PEN_DOWN 7 8 40 9 9 50\n.PEN_UP\n"
+)
 DOLLAR = (
     b'<Gesture Name="star01" Subject="2" NumPts="2"><Point X="0" Y="0" T="0"/><Point X="2" Y="0" T="10"/></Gesture>'
 )
@@ -29,16 +34,20 @@ def damaged(whole: bytes, rng: np.random.Generator) -> bytes:
     return whole
 
 
-@pytest.mark.parametrize(("read", "whole"), [(read_unipen, UNIPEN), (read_dollar, DOLLAR), (read_inkml, INKML)])
+@pytest.mark.parametrize(
+    ("read", "whole"),
+    [(read_unipen, UNIPEN), (read_unipen, UNIPEN_LEVELS), (read_dollar, DOLLAR), (read_inkml, INKML)],
+    ids=["UCI", "UNIPEN", "dollar", "InkML"],
+)
 def test_damaged_files_give_strokes_or_one_sentence(
     tmp_path: Path, read: Callable[[Path], StrokeLibrary], whole: bytes
 ) -> None:
     rng, path = np.random.default_rng(0), tmp_path / "file"
     path.write_bytes(whole)
-    assert len(read(path)) == 1
     sentences = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", StrokeImportWarning)
+        assert len(read(path)) == 1
         for _ in range(300):
             path.write_bytes(damaged(whole, rng))
             try:

@@ -42,7 +42,7 @@ def test_lines_end_as_on_any_system(tmp_path: Path, end: str) -> None:
 
 def test_an_included_file_stands_where_it_is_named(tmp_path: Path) -> None:
     path = written(tmp_path, a=".VERSION 1.0\n.INCLUDE deep/b.dat\n.PEN_UP\n")
-    written(tmp_path / "deep", b='.COORD X Y\n.INCLUDE "c.dat"\n', c=".PEN_DOWN\n1 2\n")
+    written(tmp_path / "deep", b='.COORD X Y\n.INCLUDE "c.dat" \n\n# a remark\n', c=".PEN_DOWN\n1 2\n")
     found, reader = read_all(path)
     assert [(s.keyword, Path(s.path).name, s.line) for s in found] == [
         ("VERSION", "a.dat", 1),
