@@ -101,7 +101,7 @@ offer_browser() {
 # What a program and its subcommand need beside the core.
 purpose_of() {
     case "$1 ${2-}" in
-        'studio '* | 'timing studio') printf 'studio' ;;
+        'studio '* | 'timing studio' | 'fuzz studio') printf 'studio' ;;
         'study '* | 'benchmark '* | 'timing growth' | 'results make') printf 'study' ;;
         'convert '* | 'replay '*) printf 'formats' ;;
         *) printf 'run' ;;

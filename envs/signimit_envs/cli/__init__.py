@@ -32,6 +32,7 @@ COMMANDS = {
     "train": "PPO of stable-baselines3 on the environments",
     "timing": "how long things take here, beside the plainest way: core, env, throughput, growth, studio",
     "results": "the folder of results, measured anew, and the tables of README and docs",
+    "fuzz": "what no page would send to the studio: it stays up, and nothing is lost",
     "doctor": "what works on this machine, and the line that mends the rest",
 }
 _HELP = {"-h", "--help"}

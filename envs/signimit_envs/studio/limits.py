@@ -14,7 +14,12 @@ class Limits:
     Attributes:
         body: Bytes of a request.
         upload: Bytes of an imported file.
+        text: Bytes of it if it is text, which takes fifty times the memory to read.
         unpacked: Bytes of what is in it.
+        held: Bytes of all requests that are under way.
+        patience: Time within which a request must have come, s.
+        journal: Bytes of a session.
+        sentence: Characters of a sentence that has in it what was sent.
         reach: Distance of objects and hands from the table's middle along an axis, m.
         message: Bytes of a message on the socket.
         points: Points of a stroke.
@@ -32,13 +37,18 @@ class Limits:
         title: Characters of a session's title.
         objects: Objects in a scene.
         drawn: Demonstrations in a figure.
-        waiting: Figures and films that wait to be made.
-        connections: Connections at once.
+        waiting: Figures, films and imports that wait to be made.
+        connections: Connections at once; of more, the one goes that was waited for longest.
     """
 
     body: int = 4 * 2**20
     upload: int = 32 * 2**20
-    unpacked: int = 256 * 2**20
+    text: int = 8 * 2**20
+    unpacked: int = 64 * 2**20
+    held: int = 64 * 2**20
+    patience: float = 60.0
+    journal: int = 64 * 2**20
+    sentence: int = 500
     reach: float = 2.0
     message: int = 1024
     points: int = 5000

@@ -199,7 +199,7 @@ def measure_speed(address: str, sessions: int, answers: int, seconds: float) -> 
     time.sleep(_SETTLE)
     page.ask("POST", f"sessions/{session['id']}/table", {})
     with closing(FrameWatcher(address)) as one:
-        motion = [_first_motion(page, one, session, attempt) for attempt in range(answers)]
+        motion = [first_motion(page, one, session, attempt) for attempt in range(answers)]
         frames = {1: _frame_rates(page, [one], session, seconds)}
         with closing(FrameWatcher(address)) as two:
             start = page.ask("GET", "health")
@@ -231,30 +231,35 @@ def measure_growth(address: str, process: int, minutes: float) -> Growth:
         return Growth(minutes, page.requests, before, resident_memory(process), real_time)
 
 
-def _real_time(start: Json, end: Json) -> float:
-    """Return simulated time over time between two control steps; the arm tells both times of a step."""
-    return float((end["time"] - start["time"]) / (end["clock"] - start["clock"]))
-
-
-def resident_memory(process: int) -> float:
-    """Return the resident memory of a process, MiB.
+def first_motion(page: PageClient, watcher: FrameWatcher, session: Json, attempt: int) -> float:
+    """Ask a resting arm for something, and return how long it takes until it is seen to move, s.
 
     Raises:
-        OSError: If the system does not tell.
+        InvalidInputError: If it is not, within a minute.
     """
-    for line in Path(f"/proc/{process}/status").read_text().splitlines():
-        if line.startswith("VmRSS:"):
-            return int(line.split()[1]) / 1024
-    raise OSError("the system does not tell how large a process is")
-
-
-def _first_motion(page: PageClient, watcher: FrameWatcher, session: Json, attempt: int) -> float:
     signs = page.utterance(session, attempt)
     page.ask("POST", f"sessions/{session['id']}/stop", {})
     time.sleep(_REST)
     place, start = watcher.latest["hand"], time.perf_counter()
     page.ask("POST", f"sessions/{session['id']}/ask", {"signs": signs})
     return watcher.wait_until_moved(place) - start
+
+
+def _real_time(start: Json, end: Json) -> float:
+    """Return simulated time over time between two control steps; the arm tells both times of a step."""
+    return float((end["time"] - start["time"]) / (end["clock"] - start["clock"]))
+
+
+def resident_memory(process: int, highest: bool = False) -> float:
+    """Return the resident memory of a process, now or at its highest, MiB.
+
+    Raises:
+        OSError: If the system does not tell.
+    """
+    for line in Path(f"/proc/{process}/status").read_text().splitlines():
+        if line.startswith("VmHWM:" if highest else "VmRSS:"):
+            return int(line.split()[1]) / 1024
+    raise OSError("the system does not tell how large a process is")
 
 
 def _frame_rates(page: PageClient, watchers: list[FrameWatcher], session: Json, seconds: float) -> list[float]:

@@ -37,7 +37,7 @@ _log = logging.getLogger(__name__)
 
 
 class BusyError(RuntimeError):
-    """Too many figures and films wait already."""
+    """Too many figures, films and files wait already."""
 
 
 class Studio:
@@ -137,13 +137,13 @@ class Studio:
         return number
 
     async def render(self, work: Callable[[], Result]) -> Result:
-        """Make a figure or a film in a thread, one at a time, or the arm would get too little of the processor.
+        """Make a figure or film or read a file, one at a time in a thread: of processor and memory the arm needs some.
 
         Raises:
             BusyError: If too many wait already.
         """
         if self._waiting >= LIMITS.waiting:
-            raise BusyError(f"At most {LIMITS.waiting} figures and films are made at once; try again.")
+            raise BusyError(f"At most {LIMITS.waiting} figures, films and files are made at once; try again.")
         self._waiting += 1
         try:
             return await asyncio.get_running_loop().run_in_executor(self._figure_pool, work)

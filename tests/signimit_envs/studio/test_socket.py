@@ -115,6 +115,8 @@ def test_every_tab_hears_of_every_change(page: Any, socket: Any, session: Json) 
         ("[" * 1000, BAD),
         ('{"type": "watch"}', BAD),
         ('{"type": "watch", "on": true, "more": 1}', BAD),
+        (f'{{"type": "watch", "on": true, "{"é" * 300}": 1}}', BAD),
+        ('{"type": "watch", "on": true, "\\ud800": 1}', BAD),
         ('{"type": "drag", "object": 6, "to": [0, 0]}', BAD),
         ('{"type": "drag", "object": 0, "to": [0, NaN]}', BAD),
         ('{"type": "shove", "velocity": [1e400, 0]}', BAD),

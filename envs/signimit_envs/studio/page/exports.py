@@ -32,6 +32,8 @@ from signimit_envs.studio.store.events import DrawnDemonstration
 
 WORDS = 2
 PLACES = "objects"
+_MOST_STROKES = LIMITS.demonstrations * (WORDS + 2)
+_MOST_TAGS = 50 * _MOST_STROKES  # a trace has about ten
 _COLUMNS = ("stroke", "label", "writer", "x", "y", "t")
 Demonstrations = Sequence[DrawnDemonstration]
 
@@ -155,9 +157,13 @@ def _read_csv(path: Path) -> list[DrawnDemonstration]:
 
 
 def _library_from_rows(rows: Iterator[list[str]], where: str) -> StrokeLibrary:
-    strokes, labels, writers = [], [], []
+    strokes, labels, writers = list[Stroke](), list[str](), list[str]()
     for number, group in itertools.groupby((row for row in rows if row), key=lambda row: row[0]):
-        table = list(group)
+        table = list(itertools.islice(group, LIMITS.points + 1))
+        if len(table) > LIMITS.points:
+            raise InvalidInputError(f"stroke {number[:20]}", f"at most {LIMITS.points} points", "more")
+        if len(strokes) >= _MOST_STROKES:
+            raise InvalidInputError("the file", f"at most {_MOST_STROKES} strokes", "more")
         try:
             numbers = np.array([[float(value) for value in row[3:]] for row in table])
             strokes.append(Stroke(numbers[:, :2], numbers[:, 2]))
@@ -170,6 +176,15 @@ def _library_from_rows(rows: Iterator[list[str]], where: str) -> StrokeLibrary:
 
 
 def _refuse_bombs(path: Path) -> None:
+    """Refuse a file that takes far more memory to read than a session."""
+    if path.suffix in (".inkml", ".csv"):
+        content = path.read_bytes()
+        if len(content) > LIMITS.text:
+            raise InvalidInputError(
+                "the file", f"at most {LIMITS.text} bytes; an archive may be larger", f"{len(content)}"
+            )
+        if path.suffix == ".inkml" and content.count(b"<") > _MOST_TAGS:
+            raise InvalidInputError("the file", f"at most {_MOST_TAGS} tags", "more")
     if path.suffix != ".npz" or not zipfile.is_zipfile(path):
         return
     try:

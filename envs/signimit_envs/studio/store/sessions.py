@@ -70,8 +70,16 @@ class SessionStore:
         return session
 
     def append(self, session: str, event: Event) -> None:
-        """Add an event to a session's journal; on the disk when this returns."""
-        append_record(self._folder / session / _JOURNAL, event_to_json(event))
+        """Add an event to a session's journal; on the disk when this returns.
+
+        Raises:
+            InvalidInputError: If the journal is as large as it may become; it could not be read for ever.
+            OSError: If it cannot be written.
+        """
+        journal = self._folder / session / _JOURNAL
+        if journal.exists() and journal.stat().st_size >= LIMITS.journal:
+            raise InvalidInputError("session", f"at most {LIMITS.journal} bytes; begin another session", "more")
+        append_record(journal, event_to_json(event))
 
     def read(self, session: str) -> History:
         """Read a session from its journal, leaving out a line that a killed process left half written.

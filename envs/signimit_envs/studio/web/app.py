@@ -31,7 +31,7 @@ from signimit_envs.studio.open_session import NotFoundError, StaleRevisionError
 from signimit_envs.studio.page.exports import FORMATS
 from signimit_envs.studio.page.prompts import FREE, LANGUAGES
 from signimit_envs.studio.studio import BusyError, Studio
-from signimit_envs.studio.web.messages import describe_errors
+from signimit_envs.studio.web.messages import describe_errors, printable
 from signimit_envs.studio.web.routes import ask as ask_routes
 from signimit_envs.studio.web.routes import keep as keep_routes
 from signimit_envs.studio.web.routes import look as look_routes
@@ -138,8 +138,9 @@ def _serve_page(app: FastAPI) -> None:
 
 
 def _error_response(status: int, sentence: str, **more: Any) -> JSONResponse:
-    _log.warning("refused with %d: %s", status, sentence)
-    return JSONResponse({"error": sentence, **more}, status)
+    plain = printable(sentence)
+    _log.warning("refused with %d: %s", status, plain)
+    return JSONResponse({"error": plain, **more}, status)
 
 
 async def _handle_known_error(request: Request, error: Exception) -> Response:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import ipaddress
 import json
 import logging
@@ -73,7 +74,7 @@ class Guard:
             any_address: Let in any Host that is an IP address rather than a name; addresses cannot be rebound.
         """
         self._app, self._token, self._hosts, self._any_address = app, token.encode(), hosts, any_address
-        self._bucket = Bucket(LIMITS.requests, LIMITS.burst)
+        self._bucket, self._bodies = Bucket(LIMITS.requests, LIMITS.burst), _Bodies()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Hand a request on to the application, or refuse it."""
@@ -95,7 +96,7 @@ class Guard:
         inner["raw_path"] = inner["path"].encode()
         if scope["type"] == "http":
             most = LIMITS.upload if inner["path"] == "/api/import" else LIMITS.body
-            await _Bounded(self._app, most).serve(inner, receive, send)
+            await _Bounded(self._app, most, self._bodies).serve(inner, receive, send)
         else:
             await self._app(inner, receive, send)
 
@@ -127,25 +128,54 @@ class Guard:
 
 
 class _Bounded:
-    """Serves one request whose body must not be too large, and adds our headers to the answer."""
+    """Serves one request: takes its body, which must come soon and not be too large; adds our headers to the answer."""
 
-    def __init__(self, app: App, most: int) -> None:
-        self._app, self._most = app, most
-        self._count, self._started, self._too_large = 0, False, False
+    def __init__(self, app: App, most: int, bodies: _Bodies) -> None:
+        self._app, self._most, self._bodies = app, most, bodies
+        self._body = bytearray()
+        self._started = False
 
     async def serve(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            refusal = await self._take(scope, receive)
+            if refusal is None:
+                await self._answer(scope, receive, send)
+            else:
+                await _refuse(scope, send, *refusal)
+        except _LeftError:
+            return  # nobody waits for an answer
+        finally:
+            self._bodies.held -= len(self._body)
+
+    async def _take(self, scope: Scope, receive: Receive) -> tuple[int, str] | None:
+        """Take the body whole, so that the application never sees one that breaks off; return why not."""
+        too_large = 413, f"Too large: at most {self._most} bytes."
         lengths = [value for name, value in scope["headers"] if name.lower() == b"content-length"]
         if any(not value.isdigit() or int(value[:20]) > self._most for value in lengths):
-            await _refuse(scope, send, 413, f"Too large: at most {self._most} bytes.")
-            return
+            return too_large
+        try:
+            async with asyncio.timeout(LIMITS.patience):
+                more = True
+                while more:
+                    message = await receive()
+                    if message["type"] == "http.disconnect":
+                        raise _LeftError
+                    part, more = message.get("body", b""), message.get("more_body", False)
+                    self._body += part
+                    self._bodies.held += len(part)
+                    if len(self._body) > self._most:
+                        return too_large
+                    if self._bodies.held > LIMITS.held:
+                        return 429, f"Too much at once: at most {LIMITS.held} bytes of all requests together."
+        except TimeoutError:
+            return 408, f"Too slow: a request must be here within {LIMITS.patience:g} s."
+        return None
 
-        async def counted() -> Message:
-            message = await receive()
-            self._count += len(message.get("body", b""))
-            if self._count > self._most:
-                self._too_large = True
-                return {"type": "http.disconnect"}
-            return message
+    async def _answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        whole = iter([{"type": "http.request", "body": bytes(self._body), "more_body": False}])
+
+        async def taken() -> Message:
+            return next(whole, None) or await receive()
 
         async def marked(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -154,15 +184,21 @@ class _Bounded:
             await send(message)
 
         try:
-            await self._app(scope, counted, marked)
+            await self._app(scope, taken, marked)
         except Exception:
-            if not self._too_large:
-                _log.exception("a request failed")
+            _log.exception("a request failed")
             if not self._started:
-                large = 413, f"Too large: at most {self._most} bytes."
-                await _refuse(
-                    scope, send, *(large if self._too_large else (500, "The studio failed; its log says how."))
-                )
+                await _refuse(scope, send, 500, "The studio failed; its log says how.")
+
+
+class _LeftError(Exception):
+    """Whoever sent a request left before its end."""
+
+
+class _Bodies:
+    """Bytes of the bodies of all requests that are under way."""
+
+    held = 0
 
 
 def _is_reading(scope: Scope) -> bool:

@@ -215,6 +215,12 @@ def read_socket_message(text: str) -> SocketMessage:
         raise InvalidInputError("message", "JSON", f"{text[:40]!r}") from None
 
 
+def printable(sentence: str) -> str:
+    """Return a sentence that may quote what was sent, cut, and without what a terminal that shows the log obeys."""
+    whole = sentence if len(sentence) <= LIMITS.sentence else f"{sentence[: LIMITS.sentence]} ..."
+    return "".join(mark if mark.isprintable() else repr(mark)[1:-1] for mark in whole)
+
+
 def describe_errors(errors: Any) -> str:
     """Return the first of pydantic's errors as a phrase."""
     first = errors[0]

@@ -87,6 +87,7 @@ def _make_server(plan: StudioPlan, listener: socket.socket) -> tuple[uvicorn.Ser
     from signimit_envs.studio.limits import LIMITS
     from signimit_envs.studio.studio import Studio
     from signimit_envs.studio.web.app import create_app
+    from signimit_envs.studio.web.connections import HttpConnection, SocketConnection
     from signimit_envs.studio.web.guard import Guard
 
     port, token = listener.getsockname()[1], secrets.token_urlsafe(24)
@@ -98,10 +99,10 @@ def _make_server(plan: StudioPlan, listener: socket.socket) -> tuple[uvicorn.Ser
         log_level="warning",
         access_log=False,
         server_header=False,
-        ws="websockets-sansio",
+        http=HttpConnection,
+        ws=SocketConnection,
         ws_max_size=4 * LIMITS.message,
         ws_per_message_deflate=False,
-        limit_concurrency=LIMITS.connections,
         timeout_graceful_shutdown=2,
     )
     name = LOCAL if plan.host in _EVERYWHERE else plan.host

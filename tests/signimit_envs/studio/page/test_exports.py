@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from signimit import PAPER_LANGUAGE, InvalidInputError, StrokeLibrary
+from signimit import PAPER_LANGUAGE, InvalidInputError, Stroke, StrokeLibrary
 from signimit.teaching.languages import Request
 from signimit_envs.studio.limits import Limits
 from signimit_envs.studio.page.exports import FORMATS, export_bytes, import_bytes, to_library
@@ -75,6 +75,33 @@ def test_an_archive_that_unpacks_to_too_much_is_not_unpacked(monkeypatch: pytest
         member.write(bytes(2**20 + 1))
     with pytest.raises(InvalidInputError, match="bytes unpacked"):
         import_bytes("demonstrations.npz", content.getvalue())
+
+
+_HEAD, _INK = "stroke,label,writer,x,y,t\n", '<ink xmlns="http://www.w3.org/2003/InkML">{}</ink>'
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("strokes.csv", _HEAD + "0,a,b,1,1,1\n" * 300_000, "stroke 0: expected at most 5000 points, found more"),
+        ("strokes.csv", _HEAD + "".join(f"{n},a,b,1,1,1\n{n},a,b,2,2,2\n" for n in range(500)), "at most 400 strokes"),
+        ("strokes.inkml", _INK.format("<trace>1 1,2 2</trace>" * 100_000), "at most 20000 tags, found more"),
+        ("strokes.inkml", _INK.format("<a>" * 1_000_000), "at most 20000 tags, found more"),
+        ("strokes.inkml", _INK.format(f"<trace>{'1 1,' * 3_000_000}</trace>"), "at most 8388608 bytes; an archive may"),
+    ],
+)
+def test_a_text_that_would_take_too_much_memory_is_refused_soon(name: str, text: str, told: str) -> None:
+    with pytest.raises(InvalidInputError, match=told):
+        import_bytes(name, text.encode())
+
+
+def test_a_whole_session_of_long_strokes_is_not_too_much() -> None:
+    times, turn = np.arange(300) / 60, np.linspace(0, 6, 300)[:, None]
+    stroke = Stroke(np.hstack([np.sin(turn), np.cos(turn) / 3]), times)
+    objects = np.array([[0.1, 0.1], [-0.1, 0.1], [0.0, -0.2]])
+    session = [DrawnDemonstration((stroke, stroke), objects, stroke)] * 100
+    for name in FORMATS:
+        assert len(import_bytes(name, export_bytes(name, session, None))) == 100
 
 
 def test_more_than_could_have_been_drawn_here_is_refused(shown: Make) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from signimit import InvalidInputError
+from signimit_envs.studio.limits import Limits
 from signimit_envs.studio.store.events import Asked, Created, Demonstrated, DrawnDemonstration, Titled
 from signimit_envs.studio.store.sessions import ID_PATTERN, SessionStore
 
@@ -30,6 +31,19 @@ def test_a_session_is_read_again_as_it_was(store: SessionStore, shown: Make) -> 
     history = store.read(name)
     assert history.shown[0].hand.points.tolist() == one.hand.points.tolist()
     assert history.created.seed == 0
+
+
+def test_a_journal_does_not_grow_beyond_what_can_be_read(
+    store: SessionStore, shown: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name = store.create(BEGINNING)
+    store.append(name, Demonstrated((shown(),)))
+    monkeypatch.setattr("signimit_envs.studio.store.sessions.LIMITS", Limits(journal=1000))
+    with pytest.raises(
+        InvalidInputError, match="session: expected at most 1000 bytes; begin another session, found more"
+    ):
+        store.append(name, Demonstrated((shown(),)))
+    assert len(store.read(name).shown) == 1
 
 
 def test_the_list_knows_the_latest_of_every_session(store: SessionStore, shown: Make) -> None:

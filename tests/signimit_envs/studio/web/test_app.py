@@ -313,3 +313,25 @@ def test_points_that_share_a_time_stamp_are_taken(page: Any, session: Json) -> N
     times = page.get(f"sessions/{session['id']}/demonstrations/0")["signs"][1]["times"]
     assert times[0] == 0
     assert all(a < b for a, b in itertools.pairwise(times))
+
+
+@pytest.mark.parametrize(
+    ("key", "told"),
+    [("\x1b]0;title\x07\n", r"\x1b]0;title\x07\n: "), ("\u202egro.live", r"\u202egro.live: "), ("größe", "größe: ")],
+)
+def test_what_is_quoted_in_an_answer_and_the_log_moves_no_terminal(
+    page: Any, caplog: pytest.LogCaptureFixture, key: str, told: str
+) -> None:
+    answer = page.ask("POST", "sessions", json={key: 1})
+    assert answer.json() == {"error": f"{told}Extra inputs are not permitted"}
+    assert caplog.messages == [f"refused with 422: {told}Extra inputs are not permitted"]
+
+
+def test_what_is_quoted_is_not_longer_than_a_sentence(page: Any) -> None:
+    answer = page.ask("POST", "sessions", json={"k" * 100_000: 1})
+    assert answer.json() == {"error": f"{'k' * 500} ..."}
+
+
+def test_only_so_many_files_are_read_at_once(page: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit_envs.studio.studio.LIMITS", Limits(waiting=0))
+    assert page.ask("POST", "import?format=strokes.csv", content=b"").status_code == 429

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.limits import LIMITS, Limits
 from signimit_envs.studio.web.guard import HEADERS, Bucket, Guard
 
 httpx = pytest.importorskip("httpx")
@@ -172,6 +172,65 @@ def test_a_body_that_turns_out_too_large_is_refused() -> None:
 
     assert _ask(f"/{TOKEN}/x", method="POST", content=chunks()).status_code == 413
     assert _ask(f"/{TOKEN}/api/import", method="POST", content=chunks()).status_code == 200
+
+
+def _serve(app: Any, messages: list[Any], *others: Any) -> list[MutableMapping[str, Any]]:
+    """Serve a request that comes in pieces, and return what is sent; a number is a wait, s."""
+    sent: list[MutableMapping[str, Any]] = []
+    headers = [(b"host", HOST.encode())]
+    scope = {"type": "http", "method": "POST", "path": f"/{TOKEN}/x", "query_string": b"", "headers": headers}
+
+    async def serve(guard: Guard, messages: list[Any], send: Any) -> None:
+        coming = iter(messages)
+
+        async def receive() -> Any:
+            message = next(coming, {"type": "http.disconnect"})
+            if isinstance(message, float):
+                await asyncio.sleep(message)
+                message = next(coming)
+            return message
+
+        await guard(scope, receive, send)
+
+    async def keep(message: MutableMapping[str, Any]) -> None:
+        sent.append(message)
+
+    async def drop(message: MutableMapping[str, Any]) -> None:
+        pass
+
+    async def serve_all() -> None:
+        guard = Guard(app, TOKEN, frozenset({HOST}))
+        slow = [asyncio.create_task(serve(guard, other, drop)) for other in others]
+        await asyncio.sleep(0)
+        await serve(guard, messages, keep)
+        for task in slow:
+            task.cancel()
+
+    asyncio.run(serve_all())
+    return sent
+
+
+def _part(content: bytes, more: bool = True) -> dict[str, Any]:
+    return {"type": "http.request", "body": content, "more_body": more}
+
+
+def test_a_body_that_does_not_come_is_not_waited_for_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit_envs.studio.web.guard.LIMITS", Limits(patience=0.05))
+    refused = _serve(_broken, [_part(b"a"), 60.0, _part(b"b", False)])
+    assert (refused[0]["status"], b"within 0.05 s" in refused[1]["body"]) == (408, True)
+
+
+def test_bodies_of_all_requests_together_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit_envs.studio.web.guard.LIMITS", Limits(held=1000))
+    half, rest = [_part(bytes(600)), 60.0, _part(b"", False)], [_part(bytes(600), False)]
+    assert _serve(_echo, rest)[0]["status"] == 200
+    assert _serve(_echo, rest, half)[0]["status"] == 429
+    assert _serve(_echo, rest, rest)[0]["status"] == 200  # what was answered counts no more
+
+
+def test_the_application_hears_nothing_of_a_request_that_breaks_off(caplog: pytest.LogCaptureFixture) -> None:
+    assert _serve(_broken, [_part(b"half")]) == []
+    assert caplog.records == []
 
 
 def test_a_failure_inside_is_logged_and_not_told(caplog: pytest.LogCaptureFixture) -> None:

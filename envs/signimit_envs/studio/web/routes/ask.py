@@ -16,10 +16,20 @@ from signimit_envs.studio.page.views import answer_json, session_json, track_jso
 from signimit_envs.studio.store.events import Judged, stroke_to_json
 from signimit_envs.studio.studio import Studio
 from signimit_envs.studio.web.guard import Bucket
-from signimit_envs.studio.web.messages import Ask, Drag, NewVerdict, Shove, Watch, read_socket_message, signs_of
+from signimit_envs.studio.web.messages import (
+    Ask,
+    Drag,
+    NewVerdict,
+    Shove,
+    Watch,
+    printable,
+    read_socket_message,
+    signs_of,
+)
 from signimit_envs.studio.web.routes.dependencies import Json, Number, SessionId, TheStudio
 
 BAD_MESSAGE, TOO_MANY_MESSAGES, TOO_MANY_VIEWERS, TOO_BIG, NOT_TEXT = 4400, 4429, 4503, 1009, 1003
+_REASON = 120  # bytes, of 123 that a socket can be closed with
 _log = logging.getLogger(__name__)
 routes = APIRouter(tags=["ask"])
 
@@ -118,7 +128,7 @@ async def _listen(socket: WebSocket, viewer: Viewer, studio: Studio) -> None:
             _obey(_parse(text), viewer, studio)
         except Refusal as refusal:
             _log.warning("closed a socket with %d: %s", refusal.code, refusal.reason)
-            await socket.close(refusal.code, refusal.reason[:100])
+            await socket.close(refusal.code, refusal.reason.encode()[:_REASON].decode(errors="ignore"))
             return
 
 
@@ -127,7 +137,7 @@ class Refusal(Exception):
 
     def __init__(self, code: int, reason: str) -> None:
         """Keep both."""
-        self.code, self.reason = code, reason
+        self.code, self.reason = code, printable(reason)
         super().__init__(code, reason)
 
 

@@ -34,7 +34,8 @@ async def take_in(
     studio: TheStudio, request: Request, format: FormatName, title: Annotated[Title, Query()] = ""
 ) -> Json:
     """Begin a session with the demonstrations of a file, which is the body."""
-    shown = await asyncio.to_thread(import_bytes, format.value, await request.body())
+    content = await request.body()
+    shown = await studio.render(lambda: import_bytes(format.value, content))
     session = await studio.create(title.strip(), FREE, len(shown[0].objects))
     await session.edit(session.history.revision, Demonstrated(shown))
     studio.changed(session)
