@@ -93,7 +93,9 @@ class XmlDocument(NamedTuple):
 
 
 def read_any_text(path: str | os.PathLike[str]) -> DecodedText:
-    """Read a text file in UTF-8, UTF-16 or UTF-32; one that is in none of them is taken for Windows-1252.
+    r"""Read a text file in UTF-8, UTF-16 or UTF-32; one that is in none of them is taken for Windows-1252.
+
+    Lines end with ``\n``, however they do in the file.
 
     Raises:
         FileNotFoundError: If there is no such file.
@@ -108,15 +110,16 @@ def decode_text(data: bytes, where: str) -> DecodedText:
     Raises:
         FileFormatError: If they are not text.
     """
-    encoding = _encoding(data)
+    encoding, findings = _encoding(data), tuple[Finding, ...]()
     try:
-        return DecodedText(data.decode(encoding))
+        text = data.decode(encoding)
     except UnicodeDecodeError as error:
-        wrong = f"byte {error.object[error.start]:#x} at {error.start}"
-    if encoding != "utf-8" or b"\0" in data:
-        raise FileFormatError(where, "text", wrong)
-    text = data.decode("cp1252", "replace")
-    return DecodedText(text, (Finding(where, "text that is not UTF-8: taken for Windows-1252"),))
+        if encoding != "utf-8" or b"\0" in data:
+            wrong = f"byte {error.object[error.start]:#x} at {error.start}"
+            raise FileFormatError(where, "text", wrong) from None
+        text = data.decode("cp1252", "replace")
+        findings = (Finding(where, "text that is not UTF-8: taken for Windows-1252"),)
+    return DecodedText(text.replace("\r\n", "\n").replace("\r", "\n"), findings)
 
 
 def read_xml(path: str | os.PathLike[str]) -> XmlDocument:

@@ -25,6 +25,13 @@ def test_unicode_is_read_as_it_is_with_or_without_a_mark(tmp_path: Path, encodin
     assert not is_binary(path)
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])  # of Unix, of Windows, of the Macs that UNIPEN was made on
+def test_lines_end_as_they_do_in_python(tmp_path: Path, end: str) -> None:
+    assert (
+        read_any_text(written(tmp_path, f".SEGMENT{end}.PEN_DOWN{end}1 2".encode())).text == ".SEGMENT\n.PEN_DOWN\n1 2"
+    )
+
+
 def test_text_of_windows_is_read_and_reported(tmp_path: Path) -> None:
     path = written(tmp_path, f"{WORDS} \N{EURO SIGN}".encode("cp1252"))
     text, findings = read_any_text(path)
