@@ -31,6 +31,7 @@ COMMANDS = {
     "study": "learners and policies against their baselines",
     "train": "PPO of stable-baselines3 on the environments",
     "timing": "how long things take here, beside the plainest way: core, env, throughput, growth, studio",
+    "soak": "millions of random and hostile control steps: are the environments sound, do they grow",
     "results": "the folder of results, measured anew, and the tables of README and docs",
     "fuzz": "what no page would send to the studio: it stays up, and nothing is lost",
     "doctor": "what works on this machine, and the line that mends the rest",

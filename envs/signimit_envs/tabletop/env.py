@@ -220,7 +220,8 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         reward = self._reward.of_step(arm.hand, fulfilled, bool(error))
         if self.render_mode == "human":
             self.render()
-        return self._observer.observe(), reward, bool(error), False, self._info(command.residual, error)
+        residual = 0.0 if error else command.residual  # of a state that blew up nothing can be solved
+        return self._observer.observe(), reward, bool(error), False, self._info(residual, error)
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a frame, shape (height, width, 3), or bring the window up to date.

@@ -164,20 +164,21 @@ def test_actions_beyond_the_box_are_clipped(env: gym.Env[Any, Any]) -> None:
     assert data_equivalence(after[0], after[1], exact=True)
 
 
-@pytest.mark.parametrize("value", [np.nan, 1e12])
+@pytest.mark.parametrize(("field", "value"), [("qvel", np.nan), ("qvel", 1e12), ("qpos", np.nan)])
 def test_a_blow_up_ends_the_episode_and_leaves_no_log(
-    env: gym.Env[Any, Any], value: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Any
+    env: gym.Env[Any, Any], field: str, value: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Any
 ) -> None:
     monkeypatch.chdir(tmp_path)
     env.reset(seed=0)
     arm = unwrapped(env)
     env.step(resting(env))
     for _ in range(2):  # the second of its kind is noticed as well, and as quietly
-        arm.data.qvel[1] = value
+        getattr(arm.data, field)[1] = value
         observation, reward, terminated, _, info = env.step(resting(env))
         assert terminated
         assert reward == 0.0
         assert "blew up" in info["physics_error"]
+        assert info["ik_residual"] == 0.0
         assert observation in env.observation_space
     assert os.listdir(tmp_path) == []
     assert capfd.readouterr() == ("", "")
