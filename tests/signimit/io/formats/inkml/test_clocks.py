@@ -34,7 +34,9 @@ def test_clocks_that_begin_with_each_trace_are_put_end_to_end(read: Read) -> Non
 
 
 def test_clocks_that_begin_anew_are_put_end_to_end_whatever_they_count_from(read: Read) -> None:
-    with pytest.warns(StrokeImportWarning, match="pieces that overlap in time: put end to end"):
+    with pytest.warns(
+        StrokeImportWarning, match="pieces whose clock begins anew or overlaps: put behind the one before"
+    ):
         library = read(timed('units="ms" respectTo="#gone"') + two((0, 20, 40), (0, 20, 40)))
     assert_allclose(library[0].times, [0, 0.02, 0.04, 0.06, 0.08, 0.1])
 
