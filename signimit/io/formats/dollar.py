@@ -50,8 +50,20 @@ def read_dollar(path: str | os.PathLike[str], strict: bool = False) -> StrokeLib
 
 def holds_gestures(root: Element) -> bool:
     """Tell whether an element is a gesture, or holds named ones with points."""
-    named = (gesture for gesture in root.iter() if local_name(gesture) == GESTURE and "Name" in gesture.attrib)
+    named = (gesture for gesture in _gestures(root) if "Name" in gesture.attrib)
     return local_name(root) == GESTURE or any(local_name(e) == POINT for gesture in named for e in gesture.iter())
+
+
+def _gestures(root: Element) -> list[Element]:
+    """Return the gestures of a document that are in no other, so that none of their points is met twice."""
+    found, waiting = [], [root]
+    while waiting:
+        element = waiting.pop()
+        if local_name(element) == GESTURE:
+            found.append(element)
+        else:
+            waiting.extend(reversed(element))
+    return found
 
 
 def parse_dollar(root: Element, path: str | os.PathLike[str]) -> PenFile:
@@ -61,7 +73,7 @@ def parse_dollar(root: Element, path: str | os.PathLike[str]) -> PenFile:
         FileFormatError: If there is none.
     """
     where = os.fspath(path)
-    gestures = [element for element in root.iter() if local_name(element) == GESTURE]
+    gestures = _gestures(root)
     if not gestures:
         raise FileFormatError(where, "a Gesture element", f"{local_name(root)!r}")
     recordings, findings, left_out = [], [], []

@@ -113,6 +113,13 @@ def test_gestures_of_one_file_are_read_one_by_one(tmp_path: Path) -> None:
         read_dollar(path, strict=True)
 
 
+def test_very_deep_nesting_ends(tmp_path: Path) -> None:
+    gesture = GOOD[GOOD.index("<Gesture") :]
+    deep = "<Gesture Name='a'>" * 20_000 + gesture + "</Gesture>" * 20_000
+    with pytest.raises(FileFormatError, match="points: expected at least 2, found none"):
+        read_dollar(written(tmp_path, f"<x>{deep}</x>"))
+
+
 def test_a_flaw_in_a_stroke_names_it(tmp_path: Path) -> None:
     strokes = '<Stroke><Point X="0" Y="0" T="0"/></Stroke><Stroke><Point X="0" T="9"/></Stroke>'
     with pytest.raises(FileFormatError, match=r"circle03\.xml: stroke 1: point 0: expected numbers X, Y and T"):
