@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import math
-import multiprocessing
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -29,6 +28,7 @@ from signimit.benchmark.protocol import Entrant, Entry, Kit, Observation, Oracle
 from signimit.benchmark.scoring import count_signs_read, judge_inference, score_path
 from signimit.benchmark.shipped_sessions import get_session, session_hash
 from signimit.benchmark.splits import entry_stream, get_split, with_more_demonstrations
+from signimit.benchmark.workers import SessionProcesses
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import Record
 from signimit.learners.base import Understanding
@@ -218,8 +218,7 @@ def local_engine(workers: int, batch: int = 1) -> Engine:
     check_counts(workers=workers, batch=batch)
 
     def run(tasks: Iterable[SessionTask]) -> Iterator[Record]:
-        context = multiprocessing.get_context("spawn")
-        with _single_threads(), ProcessPoolExecutor(workers, context) as pool:
+        with _single_threads(), SessionProcesses(workers) as pool:
             try:
                 yield from _in_turns(pool, batches_of(tasks, batch), WAITING * workers)
             except BrokenProcessPool:

@@ -46,10 +46,9 @@ def main(argv: Sequence[str] | None = None) -> None:
         argv: The command and its arguments; left out, those of the process.
     """
     name, *arguments = list(sys.argv[1:] if argv is None else argv) or [""]
-    if name in _HELP:
-        print(_overview())
-    elif name == "--version":
-        print(f"signimit {signimit.__version__}")
+    if name in (*_HELP, "--version"):
+        with exit_codes("signimit", [name]):
+            print(f"signimit {signimit.__version__}" if name == "--version" else _overview())
     elif not name:
         sys.stderr.write(f"{_overview()}\n")
         sys.exit(BAD_INPUT)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import inspect
 import os
 import shlex
@@ -10,9 +11,10 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from pathlib import Path
 from types import FrameType
 
-from signimit.exceptions import MissingDependencyError, SignimitError
+from signimit.exceptions import InvalidInputError, MissingDependencyError, SignimitError
 
 BAD_INPUT = 2
 PIPE_CLOSED = 141  # what a shell reports of a program that SIGPIPE ended
@@ -40,8 +42,10 @@ def exit_codes(name: str, argv: Sequence[str]) -> Iterator[None]:
     signal.signal(signal.SIGTERM, _exit_on_signal)
     token = _running.set((name, *argv))
     try:
-        yield
-        sys.stdout.flush()
+        try:
+            yield
+        finally:  # also where tyro has printed a help and leaves
+            sys.stdout.flush()
     except BrokenPipeError:  # the reader of the output has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python complains when it flushes at exit
         sys.exit(PIPE_CLOSED)
@@ -53,6 +57,40 @@ def exit_codes(name: str, argv: Sequence[str]) -> Iterator[None]:
         sys.exit(INTERRUPTED)
     finally:
         _running.reset(token)
+
+
+def check_output_file(path: Path, *suffixes: str) -> None:
+    """Refuse early what could not be written in the end.
+
+    Args:
+        path: A file to be written.
+        suffixes: How its name may end, in any case.
+
+    Raises:
+        InvalidInputError: If it ends otherwise.
+        OSError: If it is a folder, or is to be in a folder that is missing or not writable.
+    """
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    if path.suffix.lower() not in suffixes:
+        raise InvalidInputError(str(path), f"a name that ends in {' or '.join(suffixes)}", f"{path.suffix!r}")
+    if not path.parent.is_dir():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path.parent))
+    check_output_folder(path.parent)
+
+
+def check_output_folder(folder: Path) -> None:
+    """Refuse early a folder into which nothing could be written in the end.
+
+    Raises:
+        InvalidInputError: If it, or what is to hold it, is a file.
+        OSError: If it is not writable.
+    """
+    near = next(place for place in (folder, *folder.absolute().parents) if place.exists())
+    if not near.is_dir():
+        raise InvalidInputError(str(near), "a folder, or nothing yet", "a file")
+    if not os.access(near, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(near))
 
 
 def call_with_options(

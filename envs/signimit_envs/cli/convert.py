@@ -31,9 +31,12 @@ def main(
             there are no videos.
         size: Width and height of these videos, pixels.
     """
-    name = to or ("minari" if target.startswith(MINARI_PREFIX) else "npz" if target.endswith(".npz") else None)
+    name = to or ("minari" if target.startswith(MINARI_PREFIX) else "npz" if target.lower().endswith(".npz") else None)
     if name is None:
         raise InvalidInputError(target, "a name that says its format, or --to", "neither")
+    if target.lower().endswith(".npz") != (name == "npz"):
+        ends = "ends" if name == "npz" else "does not end"
+        raise InvalidInputError(target, f"a name that {ends} in .npz for the format {name}", "another")
     data = read_data(source)
     films = name == "lerobot" and isinstance(data, Recording)
     if cameras and not films:

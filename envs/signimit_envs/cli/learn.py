@@ -10,6 +10,9 @@ from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.languages import PAPER_LANGUAGE
+from signimit_envs.cli.command_line import check_output_file
+
+PICTURES = (".png", ".pdf", ".svg", ".jpg")
 
 
 def main(
@@ -33,9 +36,13 @@ def main(
         method: How to learn: joint, paper, or paper-literal, the paper's algorithm as it is printed.
         policy: Kind of policy for the responses: path-following, knn, ilo-gmr, gmr or dmp.
         seed: Of what the method draws at random.
-        out: Model file to write.
-        why: Picture of the reasons to write, with the default method: probabilities, lexicon, evidence.
+        out: Model file to write, .npz.
+        why: Picture of the reasons to write, .png, .pdf, .svg or .jpg, with the default method: probabilities, lexicon,
+            evidence.
     """
+    check_output_file(out, ".npz")
+    if why is not None:
+        check_output_file(why, *PICTURES)
     demos = DemonstrationSet.load(demonstrations)
     library = None if prototypes is None else StrokeLibrary.load(prototypes)
     strokes = None if library is None else [library.select(label)[0] for label in labels]

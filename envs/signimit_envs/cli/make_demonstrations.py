@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.relabelling import with_waver
@@ -34,6 +35,8 @@ def main(
         noise: Root mean square of a slow waver in all that is drawn, in half sizes of a drawing; with 0.18, some
             demonstrations are in doubt.
     """
+    if not noise >= 0:  # a comparison with NaN is false
+        raise InvalidInputError("noise", "zero or more", f"{noise}")
     plan = SessionPlan(seed=seed)
     rng = np.random.default_rng([seed, 1])
     chosen = people.choose(plan.language, rng)

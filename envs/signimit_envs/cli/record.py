@@ -10,6 +10,7 @@ from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
 from signimit.teaching.people.choosing import choose_people
+from signimit_envs.cli.command_line import check_output_file
 from signimit_envs.recording import record_reproductions, save_recording
 from signimit_envs.recording.formats import check_vacant_file
 from signimit_envs.sessions.session import SessionPlan
@@ -35,6 +36,7 @@ def main(
         policy: Kind of policy that moves the hand: path-following, knn, ilo-gmr, gmr or dmp.
         overwrite: Replace the file if it is there.
     """
+    check_output_file(out, ".npz")
     check_vacant_file(out, overwrite)
     plan = SessionPlan(seed=seed, attempts=attempts, seconds=seconds, method=method, policy=policy)
     session = plan.compose(choose_people(plan.language, np.random.default_rng([seed, 1])))

@@ -12,6 +12,7 @@ from signimit.explanation import object_name
 from signimit.learning import ImitationModel
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.scenes import sample_hand, sample_scene
+from signimit_envs.cli.command_line import check_output_file
 from signimit_envs.sessions.session import answer_signs
 from signimit_envs.tabletop_hand import TabletopHandEnv
 from signimit_envs.video.films import film_shots
@@ -45,6 +46,7 @@ def main(
         seconds: How long the arm moves.
         out: Video to write, mp4.
     """
+    check_output_file(out, ".mp4")
     learned, library = ImitationModel.load(model), StrokeLibrary.load(signs)
     rng, count = np.random.default_rng(seed), learned.demonstrations.objects.shape[1]
     if objects is not None and len(objects) != 2 * count:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import InvalidInputError
 from signimit.io.archive import MAX_BYTES, write_archive
+from signimit_envs.cli.command_line import check_output_file
 from signimit_envs.recording import (
     RecordedEpisode,
     Recording,
@@ -47,6 +48,8 @@ def main(
         out: File to write.
         overwrite: Replace the file if it is there.
     """
+    if out is not None:
+        check_output_file(out, *((".npz",) if observe == "state" else (".npz", ".mp4")))
     recorded = read_recording(recording)
     note = recorded.origin.version_note()
     if note:
@@ -56,13 +59,11 @@ def main(
         return
     if not 0 <= episode < len(recorded):
         raise InvalidInputError("episode", f"0 to {len(recorded) - 1}", f"{episode}")
-    if observe == "state" and out.suffix != ".npz":
-        raise InvalidInputError(str(out), "a name that ends in .npz for the state", f"{out.suffix!r}")
     check_vacant_file(out, overwrite)
     chosen = recorded[episode]
     if observe == "state":
         write_archive(out, "replayed state", 1, observe_states(recorded.origin, chosen))
-    elif out.suffix == ".npz":
+    elif out.suffix.lower() == ".npz":
         write_archive(out, "replayed pixels", 1, {"pixels": film_array(recorded, chosen, camera, size)})
     else:
         write_video(out, film_states(recorded.origin, chosen, camera, size))

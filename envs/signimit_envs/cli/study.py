@@ -41,7 +41,7 @@ from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import Record, read_records, whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.sessions import Condition
-from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.command_line import check_output_folder, command_text
 from signimit_envs.cli.options import ALL_CELLS, CellOptions
 from signimit_envs.cli.study_judge import study_judge
 from signimit_envs.cli.study_paper import compare_conditions
@@ -106,6 +106,8 @@ def load_recordings(signs: Path | None, movements: Path | None) -> Recordings | 
 
 def run_missing(run: Run, chosen: list[Condition], seeds: range, workers: int, file: Path) -> list[Record]:
     """Run the sessions that are not in a file of records yet, and return those of all, by cell and seed."""
+    if workers < 0:
+        raise InvalidInputError("workers", "1 or more, or 0 for all processors but one", f"{workers}")
     if not seeds or not chosen:
         raise InvalidInputError("cells", "at least 1 session of 1 cell", f"{len(seeds)} of {len(chosen)}")
     workers = workers or max(1, (os.cpu_count() or 2) - 1)
@@ -163,6 +165,7 @@ def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Pa
     """
     if sessions < 1:
         raise InvalidInputError("people", "at least 1 session", str(sessions))
+    check_output_folder(out)
     recordings, rows = Recordings(StrokeLibrary.load(signs), StrokeLibrary.load(movements)), []
     for row in leave_people_out(recordings, sessions):
         print(
@@ -190,6 +193,7 @@ def reading_signs(*, signs: Path | None = None, sessions: int = 20, out: Path = 
     """
     if sessions < 1:
         raise InvalidInputError("signs", "at least 1 session", str(sessions))
+    check_output_folder(out)
     library, rows = None if signs is None else StrokeLibrary.load(signs), []
     for row in tqdm(run_quizzes(library, sessions), total=len(QUIZZES) * len(METHODS), unit="row"):
         tqdm.write(f"{row.signs}, {row.shown} shown, signers {row.signers}, {row.method}: {row.right} of {row.asked}")

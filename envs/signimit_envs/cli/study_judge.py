@@ -27,7 +27,7 @@ from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people import MOVEMENT_LABELS
-from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.command_line import check_output_folder, command_text
 
 MOVEMENTS = (*MOVEMENT_LABELS, "triangle", "rectangle", "octagon", "boomerang", "peanut")
 
@@ -55,6 +55,7 @@ def study_judge(
     """
     if sessions < 1 or built_in < 0:
         raise InvalidInputError("judge", "at least 1 session and no fewer than 0 people", f"{sessions}, {built_in}")
+    check_output_folder(out)
     people = [("built-in", f"built-in {n}", one) for n, one in enumerate(built_in_people(built_in, seed), 1)]
     for path in libraries:
         library = StrokeLibrary.load(path)

@@ -26,7 +26,7 @@ from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.strokes import StrokeLibrary
-from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.command_line import check_output_folder, command_text
 
 CONTRASTS = (1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0, 11.0, 16.0, 22.0)  # of made-up γ
 SPREADS = (0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.05, 1.2)
@@ -56,6 +56,9 @@ def compare_conditions(
     if not levels:
         factors = dict.fromkeys(level.factor for level in study_levels())
         raise InvalidInputError("only", f"part of the name of a factor ({'; '.join(factors)})", f"{only!r}")
+    if workers < 0:
+        raise InvalidInputError("workers", "1 or more, or 0 for all processors", f"{workers}")
+    check_output_folder(out)
     libraries = [None] if movers is None else [None, StrokeLibrary.load(movers)]
     results: list[Result] = []
     for library in libraries:

@@ -13,10 +13,12 @@ import signimit
 from signimit.benchmark.studies.lasa import ReproductionError, find_lasa, reproduce, reproduction_error
 from signimit.benchmark.studies.policies import StudyPlan, Trial, compose_lessons, run_study, study_table, summarise
 from signimit.benchmark.studies.tables import write_csv
+from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.policies import POLICY_KINDS, make_policy
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.people import GOAL_LABELS, MOVEMENT_LABELS, synthetic_library
+from signimit_envs.cli.command_line import check_output_folder
 
 PEOPLE = 10  # synthetic, unless a library is given
 PORTRAYED = 8  # movements in a picture
@@ -46,6 +48,7 @@ def compare_policies(
     """
     from signimit.plots.policy_field import draw_portraits
 
+    check_output_folder(out)
     if movers is not None:
         library = StrokeLibrary.load(movers)
     else:
@@ -84,6 +87,9 @@ def compare_on_lasa(
         kinds: Policies to compare, of path-following, knn, ilo-gmr, gmr and dmp.
         out: CSV file with one row a shape and kind.
     """
+    if out.suffix.lower() != ".csv":
+        raise InvalidInputError(str(out), "a name that ends in .csv", f"{out.suffix!r}")
+    check_output_folder(out.parent)
     rows = []
     for shape in tqdm(list(find_lasa(folder)), unit="shape"):
         for kind in kinds:

@@ -18,7 +18,7 @@ from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import whole_files
 from signimit.policies import POLICY_KINDS
 from signimit_envs import ENV_IDS
-from signimit_envs.cli.command_line import command_text
+from signimit_envs.cli.command_line import check_output_folder, command_text
 from signimit_envs.exceptions import RenderingError
 from signimit_envs.studio import load
 from signimit_envs.timing import core, environments, throughput
@@ -38,6 +38,7 @@ def time_core(*, turns: int = 3, seed: int = 0, out: Path = OUT) -> None:
         seed: Of the synthetic session that is learned from.
         out: Folder for core.json and core.md.
     """
+    check_output_folder(out)
     table = Table("core", f"From twelve demonstrations. {_TIMES}", core.time_core(seed, turns))
     _write("core", {"turns": turns, "seed": seed}, [table], out)
 
@@ -50,6 +51,7 @@ def time_environments(*, turns: int = 20, envs: int = 8, out: Path = OUT) -> Non
         envs: How many environments are stepped side by side.
         out: Folder for env.json and env.md.
     """
+    check_output_folder(out)
     _check_least("envs", (envs,), 1)
     rows = [environments.time_steps(env_id, turns) for env_id in ENV_IDS]
     rows += environments.time_vector_envs(envs, turns)
@@ -82,6 +84,7 @@ def time_throughput(
         seed: Of the session whose commands are reproduced.
         out: Folder for throughput.json and throughput.md.
     """
+    check_output_folder(out)
     for name, numbers, least in (
         ("batches", batches, 1), ("threads", threads, 0), ("parts_of", [parts_of], 1), ("turns", [turns], 1)
     ):  # fmt: skip
@@ -126,6 +129,7 @@ def time_growth(*, counts: tuple[int, ...] = (12, 25, 50, 100, 200, 500, 1000), 
     from signimit.benchmark.studies.tables import write_csv
     from signimit.plots.benchmark import draw_growth
 
+    check_output_folder(out)
     rows = list(measure_growth(counts, LONGEST))
     text = "Time on the wall, of all processors, and memory above the start, each in a process of its own."
     _write("scaling", {"counts": counts}, [Table("growth", text, rows)], out)
@@ -154,6 +158,7 @@ def time_studio(
         minutes: How long memory is looked at under load; 0 leaves it out.
         out: Folder for studio.json and studio.md.
     """
+    check_output_folder(out)
     _check_least("sessions", (sessions,), 1)
     _check_least("answers", (answers,), 1)
     with tempfile.TemporaryDirectory() as folder, load.studio_process(Path(folder)) as (address, process):

@@ -6,9 +6,7 @@ time is varied, and both are measured on the same sessions.
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from typing import NamedTuple
 
@@ -25,6 +23,7 @@ from signimit.benchmark.studies.varied_demonstrations import (
     choose_mover,
     compose_varied,
 )
+from signimit.benchmark.workers import SessionProcesses
 from signimit.evaluation import performed
 from signimit.exceptions import InvalidInputError
 from signimit.grouping import STEPS
@@ -103,7 +102,7 @@ def run_levels(
     if workers < 2:
         yield from map(run_session, tasks)
         return
-    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn")) as pool:
+    with SessionProcesses(min(workers, sessions)) as pool:
         yield from pool.map(run_session, tasks)
 
 

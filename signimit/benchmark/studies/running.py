@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from pathlib import Path
 
 from signimit.benchmark.scoring import InferenceVerdict, judge_inference
 from signimit.benchmark.studies.conditions import compose_study_session
 from signimit.benchmark.studies.methods import BASELINES, SharedDistances, infer
 from signimit.benchmark.studies.tables import OURS
+from signimit.benchmark.workers import SessionProcesses
 from signimit.io.safe_files import Record, append_record, read_records
 from signimit.learning import ImitationModel, learn
 from signimit.teaching.sessions import Condition, Session
 
 Run = Callable[[Condition, int], Record]  # a session of a condition, by its seed; a function of a module
-_conditions: dict[
-    str, Condition
-] = {}  # a worker's, set once when it starts: recordings are not sent with every session
+# of a worker, set once when it starts: recordings are not sent with every session
+_conditions: dict[str, Condition] = {}
 
 
 def run_sessions(
@@ -29,15 +28,11 @@ def run_sessions(
     """Run every session of every condition that is not in the file yet, and append it there; yields as they end."""
     done = {(r["cell"], r["seed"]) for r in read_records(records)}
     todo = [(c.name, s) for s in seeds for c in conditions if (c.name, s) not in done]
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(workers, context, _start_worker, ({c.name: c for c in conditions},))
-    try:
+    with SessionProcesses(min(workers, len(todo) or 1), _start_worker, {c.name: c for c in conditions}) as pool:
         for future in as_completed([pool.submit(_run, run, name, seed) for name, seed in todo]):
             record = future.result()
             append_record(records, record)
             yield record
-    finally:
-        pool.shutdown(cancel_futures=True)  # a caller who stops waits for the sessions under way, not for all
 
 
 def _start_worker(conditions: dict[str, Condition]) -> None:

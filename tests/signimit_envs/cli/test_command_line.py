@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 import signal
 import subprocess
 import sys
@@ -11,7 +13,15 @@ from pathlib import Path
 import pytest
 
 from signimit.exceptions import InvalidInputError
-from signimit_envs.cli.command_line import PIPE_CLOSED, call_with_options, command_text, exit_codes
+from signimit_envs.cli.command_line import (
+    INTERRUPTED,
+    PIPE_CLOSED,
+    call_with_options,
+    check_output_file,
+    check_output_folder,
+    command_text,
+    exit_codes,
+)
 
 pytest.importorskip("tyro", reason="commands need signimit[scripts]")
 
@@ -115,6 +125,74 @@ def test_a_reader_who_has_seen_enough_ends_a_command_quietly() -> None:
         program.stdout.close()
         assert program.stderr.read() == b""
     assert program.returncode == PIPE_CLOSED
+
+
+@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["learn", "--help"], ["doctor"]])
+def test_whatever_is_printed_may_be_cut_off(arguments: list[str]) -> None:
+    command = [sys.executable, "-m", "signimit", *arguments]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+        assert program.stdout is not None
+        assert program.stderr is not None
+        program.stdout.close()
+        assert program.stderr.read() == b""
+    assert program.returncode == PIPE_CLOSED
+
+
+def test_an_interrupt_ends_a_command_in_one_word(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stop, exit_codes("name", []):
+        raise KeyboardInterrupt
+    assert stop.value.code == INTERRUPTED
+    assert capsys.readouterr().err == "\nstopped\n"
+
+
+def test_an_interrupt_of_imports_does_too() -> None:
+    """Where Python would tell which module it was in, or take it for a broken installation."""
+    script = (
+        "import os, signal, sys\n"
+        "class Finder:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'mujoco':\n"
+        "            os.kill(os.getpid(), signal.SIGINT)\n"
+        "from signimit.__main__ import main\n"
+        "sys.meta_path.insert(0, Finder())\n"
+        "main(['doctor'])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (INTERRUPTED, "", "\nstopped\n")
+
+
+@pytest.mark.parametrize(
+    ("path", "sentence"),
+    [
+        ("out.txt", "out.txt: expected a name that ends in .npz or .mp4, found '.txt'."),
+        ("out", "out: expected a name that ends in .npz or .mp4, found ''."),
+        ("folder", "Is a directory"),
+        ("none/out.npz", "none"),
+        ("file/out.npz", "No such file or directory"),
+    ],
+)
+def test_a_file_that_could_not_be_written_is_refused_before_the_work(
+    path: str, sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("folder").mkdir()
+    Path("file").touch()
+    with pytest.raises((InvalidInputError, OSError), match=re.escape(sentence)):
+        check_output_file(Path(path), ".npz", ".mp4")
+    check_output_file(Path("Out.NPZ"), ".npz", ".mp4")
+
+
+def test_a_folder_that_could_not_be_made_is_refused_before_the_work(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    for place in (tmp_path / "file", tmp_path / "file" / "below"):
+        with pytest.raises(InvalidInputError, match="file: expected a folder, or nothing yet, found a file"):
+            check_output_folder(place)
+    check_output_folder(tmp_path / "new" / "below")
+    monkeypatch.setattr(os, "access", lambda *_: False)  # root may write everywhere
+    with pytest.raises(PermissionError, match=re.escape(str(tmp_path))):
+        check_output_folder(tmp_path / "new" / "below")
 
 
 def test_a_command_that_is_terminated_removes_its_drafts(tmp_path: Path) -> None:

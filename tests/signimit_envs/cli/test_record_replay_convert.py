@@ -115,7 +115,15 @@ def test_cameras_are_for_lerobot_only(run: Any, recorded: Path, tmp_path: Path) 
         ("convert", ["d.npz", "tables"], "tables: expected a name that says its format, or --to, found neither"),
         ("convert", ["d.npz", "d.npz"], "d.npz: expected nothing of that name yet"),
         ("convert", ["none", "e.npz"], "none: No such file"),
+        (
+            "convert",
+            ["d.npz", "e.npz", "--to", "csv"],
+            "e.npz: expected a name that does not end in .npz for",
+        ),
+        ("convert", ["d.npz", "e", "--to", "npz"], "e: expected a name that ends in .npz for the format npz"),
         ("record", ["--seconds", 0], "seconds: expected 1 to 600"),
+        ("record", ["--out", "r.csv"], "r.csv: expected a name that ends in .npz, found '.csv'"),
+        ("replay", ["none.npz", "--out", "s.csv"], "s.csv: expected a name that ends in .npz, found '.csv'"),
     ],
 )
 def test_bad_input_gets_one_sentence_and_leaves_no_file(

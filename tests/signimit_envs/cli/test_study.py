@@ -60,7 +60,13 @@ def test_real_people_take_part_from_files_as_they_are_shared(run: Any, tmp_path:
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"), [(["cells", "--sessions", "0"], "cells: expected"), (["calibration"], "sessions; run")]
+    ("arguments", "sentence"),
+    [
+        (["cells", "--sessions", "0"], "cells: expected"),
+        (["cells", "--workers", "-1"], "workers: expected 1 or more"),
+        (["cells", "--only", "nothing"], "--only: expected part of the name of a cell (synthetic 2x2x1 plain; "),
+        (["calibration"], "sessions; run"),
+    ],
 )
 def test_what_cannot_be_run_is_told_in_a_sentence(
     run: Any, tmp_path: Path, arguments: list[str], sentence: str
