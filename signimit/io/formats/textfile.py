@@ -23,7 +23,9 @@ _BYTE_ORDER_MARKS = (
     (codecs.BOM_UTF16_BE, "utf-16"),
 )
 _OTHER_ENCODING = 19  # of expat's errors
-_ENCODING_ERRORS = (4, 17, _OTHER_ENCODING)  # and: invalid token, declaration not at the start
+_MENDABLE_ERRORS = (4, 11, 17, _OTHER_ENCODING)  # and: invalid token, undefined entity, declaration not at the start
+NO_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")  # characters that XML cannot hold
+_BARE_AMPERSAND = re.compile(r"&(?!(?:amp|lt|gt|quot|apos|#\d+|#x[0-9a-fA-F]+);)")
 _ENCODING = re.compile(rb"""\s*<\?xml[^>]*?encoding\s*=\s*["']([\w.-]+)""")
 _AROUND_XML = "\ufeff \t\r\n\0\x1a"  # what may stand before or after XML: marks, blanks, ends of text
 _FIRST_ELEMENT = re.compile(
@@ -148,27 +150,44 @@ def parse_xml(data: bytes, where: str) -> XmlDocument:
     try:
         try:
             return XmlDocument(fromstring(data))
-        except ParseError as error:  # for some reasons of the encoding, which Python knows more of
-            text, findings = decode_text(data, where) if error.code in _ENCODING_ERRORS else ("", ())
-            if not text:
+        except (ParseError, ValueError) as error:
+            mended = _mended_xml(data, where, getattr(error, "code", None))
+            if mended is None:
                 raise
-            if error.code == _OTHER_ENCODING and not findings:
-                findings = (Finding(where, "XML in another encoding than it declares: found out"),)
             try:
-                return XmlDocument(fromstring(text.strip(_AROUND_XML)), findings)  # of text, it ignores the declaration
+                return XmlDocument(fromstring(mended.text), mended.findings)  # of text, it ignores the declaration
             except ParseError:
                 raise error from None
-        except ValueError:  # an encoding of several bytes a character that is not Unicode
-            declared = _ENCODING.match(data)
-            if not declared:
-                raise
-            return XmlDocument(fromstring(data.decode(declared[1].decode())))
     except ParseError as error:
         raise FileFormatError(where, "well-formed XML", str(error)) from None
     except DefusedXmlException as error:
         raise FileFormatError(where, "XML without entities", type(error).__name__) from None
     except (LookupError, ValueError) as error:
         raise FileFormatError(where, "XML in an encoding that exists", str(error)) from None
+
+
+def _mended_xml(data: bytes, where: str, code: int | None) -> DecodedText | None:
+    """Decode XML that expat refused for its encoding or for a character; none if it is something else.
+
+    Args:
+        data: The file's bytes.
+        where: The file.
+        code: Expat's number of the error; none if the encoding is one of several bytes a character, not Unicode.
+    """
+    if code is None:
+        declared = _ENCODING.match(data)
+        return DecodedText(data.decode(declared[1].decode())) if declared else None
+    if code not in _MENDABLE_ERRORS:
+        return None
+    text, findings = decode_text(data, where)
+    if code == _OTHER_ENCODING and not findings:
+        findings = (Finding(where, "XML in another encoding than it declares: found out"),)
+    text, controls = NO_XML.subn("\ufffd", text.strip(_AROUND_XML))
+    text, ampersands = _BARE_AMPERSAND.subn("&amp;", text)
+    if controls + ampersands:
+        what = "characters and ampersands that XML does not allow: replaced"
+        findings = (*findings, Finding(where, what, controls + ampersands))
+    return DecodedText(text, findings)
 
 
 def root_name(text: str) -> str:

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import re
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from signimit.exceptions import InvalidInputError
+from signimit.io.formats.textfile import NO_XML
 from signimit.io.safe_files import replaced_file
 from signimit.strokes import Stroke, StrokeLibrary
 
-_NO_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _CHANNELS = (
     {"name": "X", "type": "decimal"},
     {"name": "Y", "type": "decimal", "orientation": "-ve"},
@@ -42,7 +41,7 @@ def write_inkml(path: str | os.PathLike[str], library: StrokeLibrary) -> None:
 
 
 def _annotate(element: Element, kind: str, text: str) -> None:
-    if found := _NO_XML.search(text):
+    if found := NO_XML.search(text):
         raise InvalidInputError(kind, "characters that XML can hold", repr(found[0]))
     SubElement(element, "annotation", {"type": kind}).text = text
 

@@ -89,6 +89,18 @@ def test_xml_in_another_encoding_than_it_says_is_read_and_reported(tmp_path: Pat
     assert [what in f.what for f in findings] == [True]
 
 
+@pytest.mark.parametrize(
+    ("name", "read"),
+    [("R&D", "R&D"), ("a & b", "a & b"), ("&eacute;", "&eacute;"), ("a\x02b", "a\ufffdb"), ("&amp;&", "&&")],
+)
+def test_a_bad_character_does_not_cost_the_file(tmp_path: Path, name: str, read: str) -> None:
+    root, findings = read_xml(written(tmp_path, f"<ink><annotation>{name}</annotation></ink>".encode()))
+    assert root[0].text == read
+    assert [(f.what, f.number) for f in findings] == [
+        ("characters and ampersands that XML does not allow: replaced", 1)
+    ]
+
+
 def test_xml_in_encodings_of_several_bytes_a_character_is_read(tmp_path: Path) -> None:
     text = '<?xml version="1.0" encoding="Shift_JIS"?><ink>日本</ink>'
     assert read_xml(written(tmp_path, text.encode("shift_jis"))).root.text == "日本"
@@ -98,7 +110,8 @@ def test_xml_in_encodings_of_several_bytes_a_character_is_read(tmp_path: Path) -
     ("data", "match"),
     [
         (XML.encode()[:-3], "expected well-formed XML, found unclosed token|no element found"),
-        (b"<ink>\x01</ink>", "expected well-formed XML, found not well-formed"),
+        (b"<ink><trace></ink>", "expected well-formed XML, found mismatched tag"),
+        (b"<ink>1 < 2 & 3</ink>", "expected well-formed XML, found not well-formed"),
         (b'<?xml version="1.0" encoding="martian"?><ink/>', "found unknown encoding"),
         (b'<?xml version="1.0" encoding="Shift_JIS"?><ink>\xff\xff</ink>', "expected XML in an encoding that exists"),
         (b'<!DOCTYPE ink [<!ENTITY a "\xe9">]><ink>&a;</ink>', "expected XML without entities"),
