@@ -9,8 +9,9 @@ from pathlib import Path
 from signimit.exceptions import FileFormatError
 from signimit.io.archive import read_archive
 from signimit.io.formats.dollar import GESTURE, holds_gestures
-from signimit.io.formats.textfile import decode_text, is_binary, parse_xml, read_bytes, root_name
+from signimit.io.formats.textfile import decode_text, is_binary, read_bytes
 from signimit.io.formats.unipen import is_unipen
+from signimit.io.formats.xmlfile import parse_xml, root_name
 from signimit.strokes import KIND, VERSION
 
 _ROOTS = {GESTURE: "dollar", "ink": "inkml"}  # by the name of the document's first element

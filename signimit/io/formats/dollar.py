@@ -16,7 +16,7 @@ from signimit.exceptions import FileFormatError
 from signimit.io.formats.import_report import Finding
 from signimit.io.formats.pen_clock import relative_seconds
 from signimit.io.formats.pen_recording import PenFile, PenRecording, library_from_pen_file
-from signimit.io.formats.textfile import local_name, read_xml
+from signimit.io.formats.xmlfile import local_name, read_xml
 from signimit.strokes import StrokeLibrary
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def read_dollar(path: str | os.PathLike[str], strict: bool = False) -> StrokeLib
         MissingDependencyError: If defusedxml is not installed.
     """
     document = read_xml(path)
-    return library_from_pen_file(path, parse_dollar(document.root, path), strict, document.findings)
+    return library_from_pen_file(path, parse_dollar(document.root, path), strict, document.findings, document.left_out)
 
 
 def holds_gestures(root: Element) -> bool:

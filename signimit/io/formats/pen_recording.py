@@ -73,7 +73,11 @@ class MendedStroke(NamedTuple):
 
 
 def library_from_pen_file(
-    path: str | os.PathLike[str], pen_file: PenFile, strict: bool = False, findings: Sequence[Finding] = ()
+    path: str | os.PathLike[str],
+    pen_file: PenFile,
+    strict: bool = False,
+    findings: Sequence[Finding] = (),
+    left_out: Sequence[FileFormatError] = (),
 ) -> StrokeLibrary:
     """Make each recording of a file one stroke, and warn of what was repaired or left out.
 
@@ -82,11 +86,12 @@ def library_from_pen_file(
         pen_file: What was found in it.
         strict: Raise the error of the first drawing that would be left out.
         findings: What was repaired before the file was parsed.
+        left_out: Why a part of the file was left out before it was parsed.
 
     Raises:
         FileFormatError: Names the recording that is no stroke, if it is to be strict or none is left.
     """
-    library, file = import_pen_file(path, "", pen_file, findings)
+    library, file = import_pen_file(path, "", pen_file, findings, left_out)
     report = ImportReport((file,))
     if report.left_out and (strict or not len(library)):
         raise report.left_out[0]
@@ -96,7 +101,11 @@ def library_from_pen_file(
 
 
 def import_pen_file(
-    path: str | os.PathLike[str], format: str, pen_file: PenFile, findings: Sequence[Finding] = ()
+    path: str | os.PathLike[str],
+    format: str,
+    pen_file: PenFile,
+    findings: Sequence[Finding] = (),
+    left_out: Sequence[FileFormatError] = (),
 ) -> tuple[StrokeLibrary, FileReport]:
     """Make each recording of a file one stroke, and report what was repaired or left out.
 
@@ -105,22 +114,23 @@ def import_pen_file(
         format: Its format, for the report.
         pen_file: What was found in it.
         findings: What was repaired before the file was parsed.
+        left_out: Why a part of the file was left out before it was parsed.
     """
-    strokes, kept, left_out, found = [], [], list(pen_file.left_out), [*findings, *pen_file.findings]
+    strokes, kept, omitted, found = [], [], [*pen_file.left_out, *left_out], [*findings, *pen_file.findings]
     for recording in pen_file.recordings:
         try:
             mended = mend_recording(recording)
         except FileFormatError as error:
-            left_out.append(error)
+            omitted.append(error)
         else:
             kept.append(recording)
             strokes.append(mended.stroke)
             found += mended.findings
-    if not strokes and not left_out:
-        left_out.append(FileFormatError(os.fspath(path), "strokes", "none"))
+    if not strokes and not omitted:
+        omitted.append(FileFormatError(os.fspath(path), "strokes", "none"))
     labels, writers = tuple(r.label for r in kept), tuple(r.writer for r in kept)
     library = StrokeLibrary(tuple(strokes), labels, writers, pen_file.source)
-    report = FileReport(Path(path), format, len(strokes), tuple(found), tuple(left_out), tuple(pen_file.includes))
+    report = FileReport(Path(path), format, len(strokes), tuple(found), tuple(omitted), tuple(pen_file.includes))
     return library, report
 
 

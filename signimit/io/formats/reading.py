@@ -17,8 +17,9 @@ from signimit.io.formats.dollar import parse_dollar, read_dollar
 from signimit.io.formats.import_report import NOT_A_DRAWING, FileReport, ImportReport, StrokeImportWarning
 from signimit.io.formats.inkml import parse_inkml, read_inkml
 from signimit.io.formats.pen_recording import import_pen_file
-from signimit.io.formats.textfile import read_any_text, read_xml
+from signimit.io.formats.textfile import read_any_text
 from signimit.io.formats.unipen import parse_unipen, read_unipen
+from signimit.io.formats.xmlfile import read_xml
 from signimit.strokes import StrokeLibrary
 
 AUTO = "auto"
@@ -160,11 +161,11 @@ def _import_file(path: Path, kind: str) -> _Part:
             return _Part(library, FileReport(path, kind, len(library)))
         if kind == "unipen":
             text, findings = read_any_text(path)
-            pen_file = parse_unipen(text, path)
+            pen_file, left_out = parse_unipen(text, path), tuple[FileFormatError, ...]()
         else:
-            root, findings = read_xml(path)
+            root, findings, left_out = read_xml(path)
             pen_file = parse_dollar(root, path) if kind == "dollar" else parse_inkml(root, path)
-        return _Part(*import_pen_file(path, kind, pen_file, findings))
+        return _Part(*import_pen_file(path, kind, pen_file, findings, left_out))
     except FileFormatError as error:
         return _left_out(path, kind, error)
 

@@ -11,7 +11,7 @@ from signimit.exceptions import FileFormatError
 from signimit.io.formats.inkml.document import InkDocument
 from signimit.io.formats.inkml.mapping import AffineMapping, read_mappings
 from signimit.io.formats.inkml.trace_format import TraceFormat, read_number, read_trace_format
-from signimit.io.formats.textfile import local_name
+from signimit.io.formats.xmlfile import local_name
 
 _REFERENCES = ("inkSource", "traceFormat", "canvas", "canvasTransform", "timestamp")
 

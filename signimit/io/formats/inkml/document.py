@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from xml.etree.ElementTree import Element
 
 from signimit.exceptions import FileFormatError
-from signimit.io.formats.textfile import local_name
+from signimit.io.formats.xmlfile import local_name
 
 _ID = "{http://www.w3.org/XML/1998/namespace}id"
 _LABEL_TYPES = ("label", "truth", "transcription")

@@ -11,7 +11,7 @@ from signimit.exceptions import FileFormatError
 from signimit.io.formats.inkml.context import ContextParts, Contexts
 from signimit.io.formats.inkml.document import InkDocument, read_annotation, read_label
 from signimit.io.formats.inkml.views import TraceRange, Views
-from signimit.io.formats.textfile import local_name
+from signimit.io.formats.xmlfile import local_name
 
 _NOT_DRAWN = ("definitions", "context", "inkSource", "traceFormat", "annotationXML")
 _MOST_VIEWS_OF_VIEWS = 10  # through which a label is looked for

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError
 from signimit.io.formats.inkml.document import InkDocument
-from signimit.io.formats.textfile import local_name
+from signimit.io.formats.xmlfile import local_name
 from signimit.validation import LARGEST
 
 Values = Mapping[str, NDArray[np.float64]]

@@ -22,7 +22,7 @@ from signimit.io.formats.inkml.trace_data import read_trace_data
 from signimit.io.formats.inkml.trace_format import Scale, TraceFormat
 from signimit.io.formats.inkml.views import TraceRange
 from signimit.io.formats.pen_recording import SAMPLE_TIME, PenFile, PenRecording, library_from_pen_file
-from signimit.io.formats.textfile import read_xml
+from signimit.io.formats.xmlfile import read_xml
 from signimit.strokes import StrokeLibrary
 
 _TRACE_TYPES = ("penDown", "penUp", "indeterminate")
@@ -50,7 +50,7 @@ def read_inkml(path: str | os.PathLike[str], strict: bool = False) -> StrokeLibr
         MissingDependencyError: If defusedxml is not installed.
     """
     document = read_xml(path)
-    return library_from_pen_file(path, parse_inkml(document.root, path), strict, document.findings)
+    return library_from_pen_file(path, parse_inkml(document.root, path), strict, document.findings, document.left_out)
 
 
 def parse_inkml(root: Element, path: str | os.PathLike[str]) -> PenFile:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from xml.etree.ElementTree import Element
 
 from signimit.exceptions import FileFormatError
-from signimit.io.formats.textfile import local_name
+from signimit.io.formats.xmlfile import local_name
 
 TIME_UNITS: Mapping[str, float] = MappingProxyType(
     {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "sec": 1.0, "msec": 1e-3}

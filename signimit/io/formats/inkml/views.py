@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from signimit.exceptions import FileFormatError
 from signimit.io.formats.inkml.document import InkDocument
-from signimit.io.formats.textfile import local_name
+from signimit.io.formats.xmlfile import local_name
 
 _VIEWED = ("trace", "traceGroup", "traceView")
 _MOST_VIEWS = 10  # of all points: a small file cannot refer to one large trace a million times

@@ -6,7 +6,7 @@ import os
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from signimit.exceptions import InvalidInputError
-from signimit.io.formats.textfile import NO_XML
+from signimit.io.formats.xmlfile import NO_XML
 from signimit.io.safe_files import replaced_file
 from signimit.strokes import Stroke, StrokeLibrary
 
