@@ -62,6 +62,10 @@ def _submit(client: Any, batch: list[SessionTask]) -> Any:
 @contextmanager
 def _client(scheduler: str, timeout: float) -> Iterator[Any]:
     try:
+        scheme, place = distributed.comm.parse_address(scheduler)  # a client that cannot be made is long in dying
+        distributed.comm.registry.get_backend(scheme)
+        if scheme in ("tcp", "tls"):
+            distributed.comm.parse_host_port(place)
         client = distributed.Client(scheduler, timeout=timeout, set_as_default=False)
     except (OSError, ValueError) as error:  # no scheduler there, or not an address
         found = f"none ({type(error).__name__})"

@@ -124,7 +124,8 @@ def _sentence(error: Exception) -> str:
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."
     if isinstance(error, ModuleNotFoundError) and not isinstance(error, SignimitError):
-        if error.name not in _SCRIPT_PACKAGES:
+        package = (error.name or "").partition(".")[0]
+        if package not in _SCRIPT_PACKAGES:
             raise error
-        return str(MissingDependencyError(error.name, "scripts", "This program"))
+        return str(MissingDependencyError(package, "scripts", "This program"))
     return str(error)

@@ -81,7 +81,9 @@ def test_a_scheduler_that_is_not_there_gets_a_sentence() -> None:
         list(dask_engine(f"tcp://127.0.0.1:{port}", timeout=0.5)([]))
 
 
-@pytest.mark.parametrize("address", ["nowhere", "ftp://127.0.0.1:1"])
-def test_what_is_no_address_gets_a_sentence(address: str) -> None:
+@pytest.mark.parametrize("address", ["nowhere", "ftp://127.0.0.1:1", "tcp://127.0.0.1", ""])
+def test_what_is_no_address_gets_a_sentence_and_no_client(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A client that fails while it is made tries to close itself for 20 s, and prints a traceback then."""
+    monkeypatch.delattr(distributed, "Client")
     with pytest.raises(InvalidInputError, match=f"scheduler {address}: expected a dask scheduler that answers"):
         list(dask_engine(address, timeout=0.5)([]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -48,11 +49,15 @@ def test_a_missing_file_is_named(capsys: pytest.CaptureFixture[str], tmp_path: P
     assert complaint(command, capsys) == f"name: {tmp_path / 'none'}: No such file or directory.\n"
 
 
-def test_a_missing_package_comes_with_the_line_that_installs_it(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize("module", ["tqdm", "matplotlib.figure"])
+def test_a_missing_package_comes_with_the_line_that_installs_it(
+    module: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     def command() -> None:
-        raise ModuleNotFoundError("no", name="tqdm")
+        raise ModuleNotFoundError("no", name=module)
 
-    assert "pip install 'signimit[scripts]'" in complaint(command, capsys)
+    package, hint = module.partition(".")[0], shlex.join([sys.executable, "-m", "pip", "install", "signimit[scripts]"])
+    assert complaint(command, capsys) == f"name: This program needs {package}: {hint}.\n"
 
 
 def test_a_bug_is_not_taken_for_bad_input() -> None:
