@@ -17,9 +17,10 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.archive import read_archive, write_archive
 from signimit.strokes import cut, flatten
-from signimit.validation import finite_array, increasing_times, item_list, moving_points
+from signimit.validation import FARTHEST, LEAST_MOVE, finite_array, increasing_times, item_list, moving_points
 
 KIND, VERSION = "demonstration set", 1
+_WIDEST = FARTHEST / 2  # m, from the table's middle: so far from there, two places are not too far from each other
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,10 +46,10 @@ class Demonstration:
             InvalidInputError: Names the field, what was expected and what was found.
         """
         utterance = tuple(moving_points(s, f"sign {i}") for i, s in enumerate(item_list(signs, "signs")))
-        places = finite_array(objects, "objects", (None, 2))
+        places = finite_array(objects, "objects", (None, 2), _WIDEST)
         if not len(places):
             raise InvalidInputError("objects", "at least one position", "none")
-        path = moving_points(hand, "hand")
+        path = moving_points(hand, "hand", _WIDEST, LEAST_MOVE)
         object.__setattr__(self, "signs", utterance)
         object.__setattr__(self, "objects", places)
         object.__setattr__(self, "hand", path)

@@ -47,8 +47,9 @@ class InvalidInputError(SignimitError, ValueError):
         super().__init__(where, expected, found)
 
     def __str__(self) -> str:
-        """Return the sentence."""
-        return f"{self.where}: expected {self.expected}, found {self.found}."
+        """Return the sentence, which can be printed whatever a file or its name is made of."""
+        sentence = f"{self.where}: expected {self.expected}, found {self.found}."
+        return sentence.encode("utf-8", "backslashreplace").decode()
 
     def inside(self, place: str) -> InvalidInputError:
         """Return the same complaint, told from one level further out."""

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.io.archive import read_archive, write_archive
-from signimit.validation import float_array, increasing_times, moving_points
+from signimit.validation import float_array, increasing_times, moving_points, plain_text
 
 KIND, VERSION = "stroke library", 1
 
@@ -68,12 +68,12 @@ class StrokeLibrary(Sequence[Stroke]):
     def __init__(
         self, strokes: Iterable[Stroke], labels: Iterable[str], writers: Iterable[str], source: str = ""
     ) -> None:
-        """Check that there is one label and one writer, both text, for each stroke.
+        """Check that there is one label and one writer, both text that can be printed, for each stroke.
 
         Raises:
             InvalidInputError: If there is not.
         """
-        object.__setattr__(self, "source", source)
+        object.__setattr__(self, "source", plain_text(source, "stroke library: source"))
         given: tuple[tuple[str, Iterable[object], type], ...]
         given = ("strokes", strokes, Stroke), ("labels", labels, str), ("writers", writers, str)
         for name, values, kind in given:
@@ -81,6 +81,8 @@ class StrokeLibrary(Sequence[Stroke]):
             for i, item in enumerate(items):
                 if not isinstance(item, kind):
                     raise InvalidInputError(f"stroke library: {name}", f"{kind.__name__}s", f"{item!r:.40} at {i}")
+                if isinstance(item, str):
+                    plain_text(item, f"stroke library: {name}: {i}")
             object.__setattr__(self, name, items)
         if not len(self.strokes) == len(self.labels) == len(self.writers):
             raise InvalidInputError(
@@ -202,7 +204,7 @@ def cut(flat: ArrayLike, where: str, offsets: ArrayLike) -> list[NDArray[np.floa
     """
     array = float_array(flat, where, (None,) if np.ndim(flat) == 1 else (None, 2))
     at = np.asarray(offsets)
-    sane = at.ndim == 1 and at.dtype.kind in "iu" and len(at) > 0
+    sane = at.ndim == 1 and at.dtype.kind in "iu" and len(at) > 0 and bool((at >= 0).all() and (at <= len(array)).all())
     at = at.astype(np.int64) if sane else at
     if not sane or at[0] != 0 or at[-1] != len(array) or (np.diff(at) < 0).any():
         found = f"{at.ravel()[:8].tolist()}"

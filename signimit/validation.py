@@ -11,29 +11,36 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.exceptions import InvalidInputError
 
 LARGEST = 1e100  # squares and ratios of what is smaller stay finite; no unit makes a stroke larger
+FARTHEST = 1e3  # m, between two places; no table is wider
+LEAST_MOVE = 1e-9  # m; no hand moves less
 _STILL = 1e-9  # share of the largest coordinate below which a movement is rounding noise
 LEAST_STEP = 1e-9  # s
 
 
-def finite_array(value: ArrayLike, where: str, shape: tuple[int | None, ...]) -> NDArray[np.float64]:
+def finite_array(
+    value: ArrayLike, where: str, shape: tuple[int | None, ...], largest: float = LARGEST
+) -> NDArray[np.float64]:
     """Copy ``value`` into a read-only float array of the wanted shape.
 
     Args:
         value: Anything that numpy can read as numbers.
         where: What it is called in the error's sentence.
         shape: Wanted shape; ``None`` stands for any length.
+        largest: Largest absolute value that makes sense.
 
     Returns:
         A C-ordered copy that cannot be written to.
 
     Raises:
-        InvalidInputError: If it is not numeric, has another shape or is not finite, or beyond 1e100.
+        InvalidInputError: If it is not numeric, has another shape or is not finite, or beyond ``largest``.
     """
     array = float_array(value, where, shape)
-    bad = np.argwhere(~(np.abs(array) <= LARGEST))  # a comparison with NaN is false
+    bad = np.argwhere(~(np.abs(array) <= largest))  # a comparison with NaN is false
     if len(bad):
         at = ", ".join(str(i) for i in bad[0])
-        raise InvalidInputError(where, "finite numbers", f"{array[tuple(bad[0])]:g} at index ({at})")
+        found = array[tuple(bad[0])]
+        wanted = f"numbers within {largest:g}" if np.isfinite(found) and largest < LARGEST else "finite numbers"
+        raise InvalidInputError(where, wanted, f"{found:g} at index ({at})")
     array.setflags(write=False)
     return array
 
@@ -58,24 +65,35 @@ def _as_floats(value: ArrayLike, where: str, wanted: str) -> NDArray[np.float64]
     """Copy integers, booleans or floats; text that looks like numbers and complex numbers are something else."""
     try:
         raw = np.asarray(value)
-        if raw.dtype.kind in "biuf" or not raw.size:
-            return np.array(raw, dtype=np.float64, order="C")
+        if not raw.size:
+            return np.zeros(raw.shape)
+        if raw.dtype.kind in "biuf":
+            with np.errstate(over="ignore", invalid="ignore"):  # longer floats than ours become infinite
+                return np.array(raw, dtype=np.float64, order="C")
         found = f"{raw.dtype} values"
     except (TypeError, ValueError, OverflowError):
         found = f"{type(value).__name__} that is not such an array"
     raise InvalidInputError(where, wanted, found)
 
 
-def moving_points(value: ArrayLike, where: str) -> NDArray[np.float64]:
+def moving_points(
+    value: ArrayLike, where: str, largest: float = LARGEST, least: float = 1 / LARGEST
+) -> NDArray[np.float64]:
     """Copy a path of at least two points, shape (T, 2), that does not stay in one place.
+
+    Args:
+        value: Anything that numpy can read as numbers.
+        where: What it is called in the error's sentence.
+        largest: Largest absolute coordinate that makes sense.
+        least: Least extent of a movement; less than 1e-9 of the largest coordinate is rounding noise in any case.
 
     Raises:
         InvalidInputError: If it is not such a path.
     """
-    points = finite_array(value, where, (None, 2))
+    points = finite_array(value, where, (None, 2), largest)
     if len(points) < 2:
         raise InvalidInputError(where, "at least 2 points", f"{len(points)}")
-    if np.ptp(points, axis=0).max() <= max(_STILL * np.abs(points).max(), 1 / LARGEST):
+    if np.ptp(points, axis=0).max() <= max(_STILL * np.abs(points).max(), least):
         raise InvalidInputError(where, "points that move", f"{len(points)} points in one place")
     return points
 

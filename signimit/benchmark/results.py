@@ -21,16 +21,16 @@ from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.protocol import Oracle
 from signimit.benchmark.running import Engine, SessionTask, code_hash
+from signimit.benchmark.schema import check_record, check_summary
 from signimit.benchmark.scoring import WORST
 from signimit.benchmark.shipped_sessions import split_hash
 from signimit.benchmark.splits import SPLITS
 from signimit.benchmark.statistics import STAGES, Estimate, estimate_share, estimate_stage
-from signimit.exceptions import FileFormatError
+from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.safe_files import Record, append_record, read_records, replaced_file
 
 FORMAT, VERSION = "signimit benchmark results", 1
 PACKAGES = ("signimit", "numpy", "scipy", "scikit-learn", "torch")  # that a result may depend on
-NEEDED = frozenset({"split", "seed", "code", "demonstrations", "obeyed", "misfit", "seconds"})
 Summary = dict[str, Any]
 
 
@@ -82,9 +82,11 @@ class ResultFile(NamedTuple):
                 expected = f"{key} {_short(value)}; give another --out, or move the file away"
                 raise FileFormatError(str(self.records), expected, _short(found.get(key)))
         for number, record in enumerate(lines[1:], 2):
-            if not set(record) >= NEEDED or record["split"] not in SPLITS:
-                where = f"{self.records}: line {number}"
-                raise FileFormatError(where, f"a record with {', '.join(sorted(NEEDED))}", _short(sorted(record)))
+            try:
+                check_record(record)
+            except InvalidInputError as error:
+                where = f"{self.records}: line {number}{error.where and ': '}{error.where}"
+                raise FileFormatError(where, error.expected, error.found) from None
         unique = {(r["split"], r["seed"]): r for r in lines[1:]}
         order = list(SPLITS)
         return sorted(unique.values(), key=lambda r: (order.index(r["split"]), r["seed"]))
@@ -239,10 +241,14 @@ def _read_summary(path: Path) -> Summary:
     try:
         summary: Summary = json.loads(path.read_text(encoding="utf-8"))
         found = f"{summary['format']} version {summary['version']}"
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError):
         found = "something else"
     if found != f"{FORMAT} version {VERSION}":
-        raise FileFormatError(str(path), f"{FORMAT} version {VERSION}", found)
+        raise FileFormatError(str(path), f"{FORMAT} version {VERSION}", f"{found:.80}")
+    try:
+        check_summary(summary)
+    except InvalidInputError as error:
+        raise FileFormatError(f"{path}: {error.where}", error.expected, error.found) from None
     return summary
 
 

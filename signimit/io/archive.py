@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import zipfile
 from collections.abc import Mapping
@@ -18,7 +19,9 @@ from signimit.io.safe_files import replaced_file
 
 MAX_BYTES = 2 * 2**30  # an archive that unpacks to more is taken for hostile
 MAX_ARRAYS = 1000  # so is one with more entries
+MAX_RATIO = 1100  # of an entry's size to its compressed size; deflate reaches 1032
 _HEADER = "signimit"
+_LAST_CHARACTER, _SURROGATES = 0x10FFFF, 0xD800 >> 11  # code points beyond and among which there are no characters
 
 
 @one_line
@@ -82,11 +85,12 @@ def read_archive(path: str | os.PathLike[str], kind: str, version: int) -> Archi
         found, number, meta = header["kind"], header["version"], header["meta"]
         if not isinstance(number, int) or not isinstance(meta, dict):
             raise TypeError("header")
+        json.dumps(header, ensure_ascii=False).encode()  # JSON can name characters that no text may have
     except (FileNotFoundError, IsADirectoryError, PermissionError, FileFormatError):
         raise
     except Exception as error:  # zip, deflate, numpy's header, JSON: each fails on hostile bytes in ways of its own
         raise FileFormatError(where, wanted, f"something unreadable ({type(error).__name__})") from error
-    if found != kind or number > version:
+    if found != kind or not 1 <= number <= version:
         raise FileFormatError(where, wanted, f"{found} version {number}")
     return Archive(arrays, meta)
 
@@ -98,6 +102,9 @@ def _refuse_bombs(archive: zipfile.ZipFile, where: str) -> None:
     total = sum(info.file_size for info in entries)
     if total > MAX_BYTES:
         raise FileFormatError(where, f"at most {MAX_BYTES} bytes unpacked", f"{total}")
+    for info in entries:  # what an entry says of its size is believed only as far as its bytes can tell so much
+        if info.file_size > MAX_RATIO * (info.compress_size + 1):
+            raise FileFormatError(f"{where}: {info.filename}", "an entry of its own size", f"{info.file_size} bytes")
 
 
 def _member(archive: zipfile.ZipFile, name: str, where: str) -> NDArray[Any]:
@@ -107,11 +114,15 @@ def _member(archive: zipfile.ZipFile, name: str, where: str) -> NDArray[Any]:
         major, _ = np.lib.format.read_magic(member)
         read = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
         shape, _, dtype = read(member)
-        promised = int(np.prod(shape, dtype=object)) * dtype.itemsize
+        promised = math.prod(max(1, length) for length in shape) * dtype.itemsize  # (10**12, 0) is a bomb, too
         if dtype.hasobject or not dtype.itemsize or promised > info.file_size:
             raise FileFormatError(
                 f"{where}: {name}", f"at most {info.file_size} bytes of plain numbers", f"{dtype} {shape}"
             )
     with archive.open(info) as member:
         array: NDArray[Any] = np.lib.format.read_array(member, allow_pickle=False)
+    if dtype.kind == "U":
+        points = np.ascontiguousarray(array).view(np.dtype(np.uint32).newbyteorder(dtype.byteorder))
+        if ((points > _LAST_CHARACTER) | (points >> 11 == _SURROGATES)).any():
+            raise FileFormatError(f"{where}: {name}", "text in Unicode", "characters that there are not")
     return array

@@ -6,10 +6,12 @@ leave of a file that grows, counts as never written: readers skip it, the next l
 
 from __future__ import annotations
 
+import ctypes
 import errno
 import json
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -18,6 +20,7 @@ from typing import Any, BinaryIO
 
 from signimit.exceptions import FileFormatError, InvalidInputError
 
+_HERE, _EXCHANGE = -100, 2  # AT_FDCWD, and RENAME_EXCHANGE of Linux as RENAME_SWAP of macOS
 MAX_RECORD_BYTES = 512 * 2**20  # of a whole file of records; a larger one is taken for hostile
 Record = dict[str, Any]
 
@@ -60,9 +63,10 @@ def replaced_path(path: str | os.PathLike[str], suffix: str = ".part") -> Iterat
         handle, beside = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.", suffix=suffix)
     os.close(handle)
     try:
-        yield Path(beside)
-        _grant_usual_access(beside, 0o666)
-        os.replace(beside, target)
+        with _told_of(target, Path(beside)):
+            yield Path(beside)
+            _grant_usual_access(beside, 0o666)
+            os.replace(beside, target)
     except BaseException:
         Path(beside).unlink(missing_ok=True)
         raise
@@ -91,10 +95,11 @@ def whole_files(folder: str | os.PathLike[str]) -> Iterator[Path]:
     with _told_of(target):
         draft = Path(tempfile.mkdtemp(dir=near, prefix=f".{target.name}.", suffix=".part"))
     try:
-        yield draft
-        target.mkdir(parents=True, exist_ok=True)
-        for file in sorted(draft.iterdir()):
-            os.replace(file, target / file.name)
+        with _told_of(target, draft):
+            yield draft
+            target.mkdir(parents=True, exist_ok=True)
+            for file in sorted(draft.iterdir()):
+                os.replace(file, target / file.name)
     finally:
         shutil.rmtree(draft)
 
@@ -121,10 +126,11 @@ def whole_folder(path: str | os.PathLike[str], marker: str, overwrite: bool = Fa
     with _told_of(target):
         draft = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}.", suffix=".part"))
     try:
-        yield draft
-        _grant_usual_access(draft, 0o777)
-        check_vacant(target, marker, overwrite)
-        _swap(draft, target)
+        with _told_of(target, draft):
+            yield draft
+            _grant_usual_access(draft, 0o777)
+            check_vacant(target, marker, overwrite)
+            _swap(draft, target)
     finally:
         shutil.rmtree(draft, ignore_errors=True)
 
@@ -157,15 +163,17 @@ def append_record(path: Path, record: Mapping[str, Any]) -> None:
     """
     line = json.dumps(record, separators=(",", ":"), allow_nan=False).encode() + b"\n"
     path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path, "a+b") as file:
+    # Without a buffer: what a full disk did not take would be written when a buffered file is closed.
+    with _told_of(path), open(path, "a+b", buffering=0) as file:
         whole = _end_of_last_line(file)
         try:
             file.truncate(whole)
-            file.write(line)
-            file.flush()
+            written = 0
+            while written < len(line):
+                written += file.write(line[written:])
             os.fsync(file.fileno())
-        except OSError:  # a full disk: the part that was written must not be taken for more than that
-            os.truncate(path, whole)
+        except OSError:  # the part that was written must not be taken for more than that
+            file.truncate(whole)
             raise
 
 
@@ -209,12 +217,20 @@ def _end_of_last_line(file: BinaryIO) -> int:
 
 
 @contextmanager
-def _told_of(target: Path) -> Iterator[None]:
-    """Let an error name the target: its user does not know what is made beside it."""
+def _told_of(target: Path, draft: Path | None = None) -> Iterator[None]:
+    """Let an error name the target, if it names the draft beside it or nothing: its user does not know what is made.
+
+    Args:
+        target: The file or folder that is being made.
+        draft: What is made beside it; left out, every error is about the target.
+    """
     try:
         yield
     except OSError as error:
-        raise OSError(error.errno, error.strerror, str(target)) from None
+        named = error.filename
+        if error.errno is None or not (draft is None or named is None or Path(str(named)).is_relative_to(draft)):
+            raise
+        raise OSError(error.errno, os.strerror(error.errno), str(target)) from None
 
 
 def _grant_usual_access(path: str | os.PathLike[str], mode: int) -> None:
@@ -225,9 +241,14 @@ def _grant_usual_access(path: str | os.PathLike[str], mode: int) -> None:
 
 
 def _swap(draft: Path, target: Path) -> None:
-    """Put the draft in the target's place; whatever was there is removed last."""
+    """Put the draft in the target's place; whatever was there is then in the draft's, or removed.
+
+    There is no moment without a target, even for a process that is killed, where the system can exchange two folders.
+    """
     if not os.path.lexists(target):
         os.rename(draft, target)
+        return
+    if _exchanged(draft, target):
         return
     old = Path(tempfile.mkdtemp(dir=target.parent, prefix=f".{target.name}.", suffix=".old"))
     os.rename(target, old / target.name)
@@ -238,3 +259,15 @@ def _swap(draft: Path, target: Path) -> None:
         raise
     finally:
         shutil.rmtree(old)
+
+
+def _exchanged(first: Path, second: Path) -> bool:
+    """Let two folders exchange their names at once; false where the system or its disk cannot."""
+    names = os.fsencode(first), os.fsencode(second)
+    try:
+        libc = ctypes.CDLL(None)
+        if sys.platform == "darwin":
+            return not libc.renamex_np(*names, _EXCHANGE)
+        return not libc.renameat2(_HERE, names[0], _HERE, names[1], _EXCHANGE)
+    except (OSError, AttributeError, TypeError):  # another C library, or Windows
+        return False

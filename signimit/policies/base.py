@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke
+from signimit.validation import FARTHEST, LEAST_MOVE, moving_points
 
 CONTROL_PERIOD = 0.02  # s, of every closed loop of this project, simulated arm or not: 50 Hz
-FARTHEST = 1e3  # m; no table is wider, and squares of anything below stay finite
 
 Array = NDArray[np.float64]
 
@@ -177,10 +177,8 @@ def check_demonstrations(paths: Sequence[ArrayLike], times: Sequence[ArrayLike])
     strokes = []
     for i, (points, stamps) in enumerate(zip(paths, times, strict=True)):
         try:
-            stroke = Stroke(np.asarray(points), np.asarray(stamps))
-            if np.abs(stroke.points).max() > FARTHEST:
-                raise InvalidInputError("points", f"positions within {FARTHEST:g} m", "larger ones")
-            strokes.append(stroke)
+            moving_points(points, "stroke points", FARTHEST, LEAST_MOVE)
+            strokes.append(Stroke(np.asarray(points), np.asarray(stamps)))
         except InvalidInputError as error:
             raise error.inside(f"demonstration {i}") from None
         except (TypeError, ValueError) as error:
@@ -202,9 +200,9 @@ def check_hand(hand: ArrayLike, where: str = "hand") -> Array:
         raise InvalidInputError(where, "numbers of shape (2,) or (B, 2)", f"{numbers.dtype} values")
     array = numbers.astype(np.float64, copy=False)
     if array.shape == (2,):
-        near = -FARTHEST < array[0] < FARTHEST and -FARTHEST < array[1] < FARTHEST
+        near = -FARTHEST <= array[0] <= FARTHEST and -FARTHEST <= array[1] <= FARTHEST
     elif array.ndim == 2 and array.shape[1] == 2:
-        near = bool((np.abs(array) < FARTHEST).all())  # a comparison with NaN is false
+        near = bool((np.abs(array) <= FARTHEST).all())  # a comparison with NaN is false
     else:
         raise InvalidInputError(where, "shape (2,) or (B, 2)", f"shape {array.shape}")
     if not near:

@@ -17,8 +17,9 @@ from signimit.exceptions import InvalidInputError
 from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
 from signimit.policies.gaussian_mixture import within_speed
 from signimit.policies.reference_path.reference_path import learn_reference_path, sample_reference_path
-from signimit.policies.storage import StoredPolicy
+from signimit.policies.storage import StoredPolicy, check_movement
 from signimit.strokes import Stroke
+from signimit.validation import FARTHEST, finite_array
 
 BASES = 40  # basis functions of the forcing term
 FREQUENCY = 10.0  # rad/s
@@ -69,13 +70,13 @@ class DMPPolicy(StoredPolicy):
 
     def __post_init__(self) -> None:
         """Check the shapes and set the goal: the middle of a rhythmic primitive, the end of a discrete one."""
-        if not 0 < self.frequency < 1 / CONTROL_PERIOD:
+        if not 0 < float(finite_array(self.frequency, "frequency", ())) < 1 / CONTROL_PERIOD:
             expected = f"between 0 and {1 / CONTROL_PERIOD:g} rad/s, what steps of {CONTROL_PERIOD:g} s can follow"
             raise InvalidInputError("frequency", expected, f"{self.frequency}")
         super().__post_init__()
-        if self.weights.shape != (BASES, 2) or self.course.ndim != 2 or self.course.shape[1] != 2:
-            expected = f"weights ({BASES}, 2) and a course (M, 2)"
-            raise InvalidInputError("policy", expected, f"{self.weights.shape} and {self.course.shape}")
+        finite_array(self.weights, "policy: weights", (BASES, 2))
+        finite_array(self.course, "policy: course", (None, 2), FARTHEST)
+        check_movement(self.closed, self.half_size, self.reach_speed)
         goal = self.course.mean(axis=0) if self.closed else self.course[-1]
         object.__setattr__(self, "_goal", frozen(goal))
 

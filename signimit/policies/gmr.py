@@ -23,11 +23,12 @@ from signimit.policies.gaussian_mixture import (
 )
 from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
-from signimit.validation import whole_numbers
+from signimit.validation import FARTHEST, finite_array, whole_numbers
 
 COMPONENTS = (1, 2, 3, 4, 6, 8, 10, 12, 16)  # numbers of components to choose from
 POINTS_EACH = 10  # data points that a component needs: its mean and covariance have 14 numbers
 STEPS = 30  # of expectation maximisation
+_LEAST_VARIANCE = 1e-10  # m², of positions in any direction; fitted ones have 1e-9 at least
 MOST_POINTS = 800  # evenly taken from all demonstrations; enough for 16 components over four features
 
 
@@ -49,11 +50,17 @@ class GMRPolicy(StoredPolicy):
     limit: float
 
     def __post_init__(self) -> None:
-        """Check the shapes."""
+        """Check the shapes, and that the positions have densities."""
         super().__post_init__()
-        count = len(self.weights)
-        if self.means.shape != (count, 4) or self.covariances.shape != (count, 4, 4):
-            raise InvalidInputError("policy: means", f"shape ({count}, 4)", f"shape {self.means.shape}")
+        count = len(finite_array(self.weights, "policy: weights", (None,)))
+        finite_array(
+            finite_array(self.means, "policy: means", (count, 4))[:, :2], "policy: means", (count, 2), FARTHEST
+        )
+        shared = finite_array(self.covariances, "policy: covariances", (count, 4, 4))[:, :2, :2]
+        if (self.weights <= 0).any() or self.limit <= 0:
+            raise InvalidInputError("policy: weights, limit", "numbers above 0", "others")
+        if not _have_densities(shared):
+            raise InvalidInputError("policy: covariances", "symmetric, positive definite matrices", "others")
 
     @classmethod
     def learn(cls, demonstrations: Sequence[Stroke], *, components: Sequence[int] = COMPONENTS) -> Self:
@@ -82,6 +89,19 @@ class GMRPolicy(StoredPolicy):
         hands = check_hand(hand)
         mixture = Mixture(self.weights, self.means, self.covariances)
         return None, within_speed(regress(mixture, hands.reshape(-1, 2)), self.limit).reshape(hands.shape)
+
+
+def _have_densities(covariances: Array) -> bool:
+    """Tell whether matrices, shape (K, 2, 2), are covariances of positions, m², as far as rounding lets them."""
+    apart = np.abs(covariances - covariances.swapaxes(1, 2)).max(axis=(1, 2))
+    if (apart > 1e-9 * np.abs(covariances).max(axis=(1, 2))).any():
+        return False
+    try:
+        precisions = np.linalg.inv(covariances)
+    except np.linalg.LinAlgError:
+        return False
+    inverse = np.linalg.eigvalsh(precisions + precisions.swapaxes(1, 2)) / 2
+    return bool(((inverse > 0) & (inverse < 1 / _LEAST_VARIANCE)).all())
 
 
 def position_velocity(demonstrations: Sequence[Stroke]) -> Array:

@@ -20,6 +20,7 @@ from signimit.policies.gaussian_mixture import fit_mixture, regress, within_spee
 from signimit.policies.gmr import position_velocity, speed_limit
 from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
+from signimit.validation import FARTHEST, finite_array
 
 NEIGHBOURS = 50  # points of a local mixture, as many as the paper's policy has
 STEPS = 4  # of expectation maximisation; not tuned
@@ -47,8 +48,9 @@ class ILOGMRPolicy(StoredPolicy):
     def __post_init__(self) -> None:
         """Check the shape and index the points."""
         super().__post_init__()
-        if self.data.ndim != 2 or self.data.shape[1] != 4:
-            raise InvalidInputError("policy: data", "shape (n, 4)", f"shape {self.data.shape}")
+        finite_array(finite_array(self.data, "policy: data", (None, 4))[:, :2], "policy: data", (None, 2), FARTHEST)
+        if self.limit <= 0:
+            raise InvalidInputError("policy: limit", "a speed above 0", f"{self.limit:g}")
         object.__setattr__(self, "_tree", cKDTree(self.data[:, :2]))
 
     @classmethod

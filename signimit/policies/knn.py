@@ -14,8 +14,10 @@ from signimit.exceptions import InvalidInputError
 from signimit.policies.base import Array, check_hand, demonstrated_velocities
 from signimit.policies.storage import StoredPolicy
 from signimit.strokes import Stroke
+from signimit.validation import FARTHEST, finite_array
 
 NEIGHBOURS = 50  # points; section II-E
+_UNIT = 1 + 1e-9  # largest coordinate of a unit vector that was rounded
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,9 +45,10 @@ class KNearestPolicy(StoredPolicy):
     def __post_init__(self) -> None:
         """Check the arrays and index the points."""
         super().__post_init__()
-        if self.points.ndim != 2 or self.points.shape[1:] != (2,) or self.points.shape != self.directions.shape:
-            shapes = f"{self.points.shape} and {self.directions.shape}"
-            raise InvalidInputError("policy: points, directions", "two arrays of shape (n, 2)", shapes)
+        finite_array(self.points, "policy: points", (None, 2), FARTHEST)
+        finite_array(self.directions, "policy: directions", self.points.shape, _UNIT)
+        if self.speed < 0:
+            raise InvalidInputError("policy: speed", "0 or more", f"{self.speed:g}")
         object.__setattr__(self, "_tree", cKDTree(self.points))
 
     @classmethod

@@ -18,13 +18,15 @@ from numpy.typing import ArrayLike, NDArray
 from signimit.exceptions import InvalidInputError
 from signimit.policies.base import CONTROL_PERIOD, Array, check_hand, frozen
 from signimit.policies.reference_path.reference_path import learn_reference_path, sample_reference_path
-from signimit.policies.storage import StoredPolicy
+from signimit.policies.storage import StoredPolicy, check_movement
 from signimit.strokes import Stroke
+from signimit.validation import FARTHEST, finite_array
 
 # Chosen on six people of the $1 recogniser's data, four demonstrations a movement (docs/policies.md).
 PULL = 15.0  # 1/s
 NEAR = 0.096  # half sizes
 SURE = 0.04  # half sizes; a hand so close to the expected place is taken to be there
+LEAST_NEAR = 1e-9  # half sizes; what is less is no distance of a hand
 LOST = 0.32  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
 ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
@@ -83,11 +85,10 @@ class PathFollowingPolicy(StoredPolicy):
     def __post_init__(self) -> None:
         """Check the course and prepare its velocities."""
         super().__post_init__()
-        if self.course.ndim != 2 or self.course.shape[1] != 2 or len(self.course) < 2:
-            raise InvalidInputError("policy: course", "shape (M, 2)", f"shape {self.course.shape}")
-        if not (0 < self.half_size < np.inf and 0 < self.reach_speed < np.inf):
-            raise InvalidInputError("policy: half size, speed", "positive", f"{self.half_size}, {self.reach_speed}")
-        if not (0 < self.pull < 1 / CONTROL_PERIOD and 0 < self.near < LOST):
+        if len(finite_array(self.course, "policy: course", (None, 2), FARTHEST)) < 2:
+            raise InvalidInputError("policy: course", "at least 2 nodes", "1")
+        check_movement(self.closed, self.half_size, self.reach_speed)
+        if not (0 < self.pull < 1 / CONTROL_PERIOD and LEAST_NEAR < self.near < LOST):
             expected = f"above 0, pull below {1 / CONTROL_PERIOD:g} per second and near below {LOST} half sizes"
             raise InvalidInputError("pull, near", expected, f"{self.pull}, {self.near}")
         onward = self.course[self._clip(np.arange(1, len(self.course) + 1), np)]

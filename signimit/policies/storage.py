@@ -10,10 +10,12 @@ import numpy as np
 
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.archive import read_archive, write_archive
-from signimit.policies.base import Array, Policy, frozen
+from signimit.policies.base import Array, Policy
 from signimit.validation import finite_array
 
 _FILE_KIND, _FILE_VERSION = "policy", 2
+LARGEST = 1e13  # of any number of a policy, SI units: no hand is faster, as times are at least 1 ns apart
+LEAST_SIZE = 1e-12  # m; half of the extent of a part of a movement that a hand can make
 RMS_RADIUS = 0.8  # half sizes; of 13 movements of built-in people 0.74 in the median, of 7 of real people 0.83
 
 
@@ -32,22 +34,24 @@ class StoredPolicy(Policy):
         return {field.name: hints[field.name] for field in dataclasses.fields(cls) if field.init}
 
     def __post_init__(self) -> None:
-        """Make the arrays read-only copies and refuse what is not finite.
+        """Make the arrays read-only copies and refuse what no policy computes with.
 
         Raises:
-            InvalidInputError: If a field is or holds something that is not a finite number, or a count is not whole.
+            InvalidInputError: If a field is or holds something that is not a finite number or beyond all sense, an
+                array is empty, or a count is not whole.
         """
         for name, hint in self._stored_types().items():
             value: Any = getattr(self, name)
+            where = f"policy: {name}"
             if hint in (float, int):
-                value = float(finite_array(value, f"policy: {name}", ()))
+                value = float(finite_array(value, where, (), LARGEST))
                 if hint is int and (value < 1 or value % 1):
-                    raise InvalidInputError(f"policy: {name}", "a whole number, 1 or more", f"{value:g}")
+                    raise InvalidInputError(where, "a whole number, 1 or more", f"{value:g}")
                 value = hint(value)
             else:
-                value = frozen(value)
-                if not np.isfinite(value).all() or not value.size:
-                    raise InvalidInputError(f"policy: {name}", "finite numbers", "others, or none")
+                value = finite_array(value, where, (None,) * np.ndim(value), LARGEST)
+                if not value.size:
+                    raise InvalidInputError(where, "numbers", "none")
             object.__setattr__(self, name, value)
 
     def _stored_arrays(self) -> dict[str, Array]:
@@ -81,8 +85,27 @@ class StoredPolicy(Policy):
             raise FileFormatError(where, f"arrays {', '.join(f.name for f in fields)}", f"no {missing[0]}")
         try:
             return cls(**{f.name: arrays[f.name] for f in fields if f.name in arrays})
-        except (TypeError, ValueError, IndexError) as error:
-            raise FileFormatError(where, f"the arrays of a {cls.kind} policy", str(error)) from None
+        except InvalidInputError as error:
+            raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
+
+
+def check_movement(closed: float, half_size: float, reach_speed: float) -> None:
+    """Refuse what no movement can be.
+
+    Args:
+        closed: Whether it goes round (1) or ends (0).
+        half_size: Half of its larger extent, m.
+        reach_speed: Speed on the way to it, m/s.
+
+    Raises:
+        InvalidInputError: Names the number.
+    """
+    if closed not in (0.0, 1.0):
+        raise InvalidInputError("policy: closed", "0 or 1", f"{closed:g}")
+    if half_size < LEAST_SIZE:
+        raise InvalidInputError("policy: half_size", f"at least {LEAST_SIZE:g} m", f"{half_size:g}")
+    if reach_speed <= 0:
+        raise InvalidInputError("policy: reach_speed", "a speed above 0", f"{reach_speed:g}")
 
 
 def read_policy_arrays(path: str | os.PathLike[str]) -> tuple[str, dict[str, Array]]:
@@ -96,5 +119,8 @@ def read_policy_arrays(path: str | os.PathLike[str]) -> tuple[str, dict[str, Arr
     """
     arrays, meta = read_archive(path, _FILE_KIND, _FILE_VERSION)
     if "scale" in arrays:
-        arrays["half_size"] = arrays.pop("scale") / RMS_RADIUS
+        try:
+            arrays["half_size"] = finite_array(arrays.pop("scale"), "policy: scale", (), LARGEST) / RMS_RADIUS
+        except InvalidInputError as error:
+            raise FileFormatError(f"{os.fspath(path)}: {error.where}", error.expected, error.found) from None
     return str(meta.get("policy", "")), arrays

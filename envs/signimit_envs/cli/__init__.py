@@ -33,7 +33,7 @@ COMMANDS = {
     "timing": "how long things take here, beside the plainest way: core, env, throughput, growth, studio",
     "soak": "millions of random and hostile control steps: are the environments sound, do they grow",
     "results": "the folder of results, measured anew, and the tables of README and docs",
-    "fuzz": "what no page would send to the studio: it stays up, and nothing is lost",
+    "fuzz": "faults on purpose: broken files, killed writers, full disks, hostile requests; nothing may be lost",
     "doctor": "what works on this machine, and the line that mends the rest",
 }
 _HELP = {"-h", "--help"}

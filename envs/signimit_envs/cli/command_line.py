@@ -50,7 +50,7 @@ def exit_codes(name: str, argv: Sequence[str]) -> Iterator[None]:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python complains when it flushes at exit
         sys.exit(PIPE_CLOSED)
     except (SignimitError, OSError, ModuleNotFoundError) as error:
-        sys.stderr.write(f"{name}: {_sentence(error)}\n")
+        sys.stderr.write(f"{name}: {error_sentence(error)}\n")
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.stderr.write("\nstopped\n")
@@ -119,7 +119,7 @@ def _exit_on_signal(number: int, frame: FrameType | None) -> None:
     sys.exit(128 + number)
 
 
-def _sentence(error: Exception) -> str:
+def error_sentence(error: Exception) -> str:
     """Say in one sentence what was wrong; a missing package that is not ours to name is a bug, not bad input."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."

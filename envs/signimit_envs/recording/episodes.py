@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import InvalidInputError
-from signimit.validation import item_list
+from signimit.validation import LARGEST, item_list
 from signimit_envs.recording.origin import RecordingOrigin
 
 BOX = "observation"
@@ -54,6 +54,8 @@ class RecordedEpisode:
         steps = len(np.atleast_1d(self.rewards))
         if not steps:
             raise InvalidInputError("episode", "at least one step", "none")
+        if self.seed is not None and (not isinstance(self.seed, int) or self.seed < 0):
+            raise InvalidInputError("seed", "a whole number, 0 or more, or none", f"{self.seed!r:.40}")
         for name, dtype in _STEP_FIELDS.items():
             object.__setattr__(self, name, _rows(getattr(self, name), name, steps, dtype))
         for name, rows in (("states", steps + 1), ("controls", steps)):
@@ -171,11 +173,16 @@ def _row_text(row: tuple[str, tuple[int, ...]] | None) -> str:
 
 def _rows(value: ArrayLike, where: str, rows: int, dtype: type[np.generic] | None = None) -> NDArray[Any]:
     """Copy numbers with one row a step into a read-only array."""
-    array = np.array(value, dtype=dtype, order="C")
-    if array.dtype.kind not in "biuf" or array.ndim < 1 or len(array) != rows:
-        raise InvalidInputError(where, f"numbers for {rows} steps", f"{array.dtype} of shape {array.shape}")
-    if not where.startswith("infos") and not np.isfinite(array).all():
-        step = int(np.argwhere(~np.isfinite(array))[0][0])
-        raise InvalidInputError(where, "finite numbers", f"others at step {step}")
+    raw = np.asarray(value)
+    if raw.dtype.kind not in "biuf" or raw.ndim < 1 or len(raw) != rows:
+        raise InvalidInputError(where, f"numbers for {rows} steps", f"{raw.dtype} of shape {raw.shape}")
+    with np.errstate(over="ignore", invalid="ignore"):  # longer floats than the field's become infinite
+        array = np.array(raw, dtype=dtype, order="C")
+    if not where.startswith("infos") and array.dtype.kind == "f":
+        bad = np.argwhere(
+            ~(np.abs(array) <= min(LARGEST, float(np.finfo(array.dtype).max)))
+        )  # comparisons with NaN are false
+        if len(bad):
+            raise InvalidInputError(where, "finite numbers", f"others at step {bad[0][0]}")
     array.setflags(write=False)
     return array

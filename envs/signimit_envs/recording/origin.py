@@ -18,6 +18,7 @@ from gymnasium.envs.registration import EnvSpec
 from signimit import InvalidInputError
 from signimit.display import one_line
 from signimit.exceptions import FileFormatError
+from signimit.validation import plain_text
 from signimit_envs.arm.scene import SUBSTEPS, scene_assets, scene_xml
 from signimit_envs.tabletop.env import TabletopEnv
 
@@ -127,7 +128,9 @@ class RecordingOrigin:
             state, substeps = str(meta["state"]), int(meta["substeps"])
             texts = {name: str(meta[name]) for name in ("env_spec", "model_xml", "mujoco_version")}
             assets = {str(name): base64.b64decode(data, validate=True) for name, data in meta["assets"].items()}
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            for text in texts.values():
+                plain_text(text, where)
+        except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
             raise FileFormatError(where, "the environment and model of a recording", f"{error!r:.80}") from None
         if state != STATE_SPEC.name or not 1 <= substeps <= _MAX_SUBSTEPS:
             expected = f"states as {STATE_SPEC.name} and 1 to {_MAX_SUBSTEPS} substeps"
@@ -180,7 +183,7 @@ def read_origin(folder: Path, kind: str, version: int) -> tuple[RecordingOrigin,
         xml = (folder / MODEL).read_bytes().decode("utf-8")
     except FileFormatError:
         raise
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
         raise FileFormatError(where, f"a whole {kind} of signimit", f"{error!r:.120}") from None
     for name in names:
         if name != Path(name).name or name in (HEADER, MODEL) or len(names) > _MAX_FILES:

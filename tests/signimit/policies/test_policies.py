@@ -205,7 +205,7 @@ def test_an_unknown_kind_is_refused_with_the_known_ones(shown: Compose) -> None:
             "demonstration 1: stroke points: expected finite",
         ),
         ([np.eye(2)], [np.zeros(2)], "demonstration 0: stroke times: expected strictly increasing"),
-        ([np.eye(2) * 1e9], [np.arange(2.0)], "demonstration 0: points: expected positions within"),
+        ([np.eye(2) * 1e9], [np.arange(2.0)], "demonstration 0: stroke points: expected numbers within 1000"),
     ],
 )
 def test_bad_demonstrations_are_refused_by_number(paths: Any, times: Any, message: str) -> None:

@@ -113,7 +113,7 @@ def fields_from_meta(meta: Any, where: str) -> list[Field]:
         fields = [
             Field(str(name), np.dtype(str(dtype)), tuple(map(int, shape))) for name, (dtype, shape) in meta.items()
         ]
-    except (AttributeError, TypeError, ValueError) as error:
+    except (AttributeError, TypeError, ValueError, OverflowError, SyntaxError) as error:
         raise FileFormatError(where, "the types and shapes of a recording", f"{error!r:.80}") from None
     for field in fields:
         if field.dtype.kind not in "biuf" or min(field.shape, default=0) < 0 or field.width > _MAX_NUMBERS:

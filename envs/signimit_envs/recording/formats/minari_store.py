@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import importlib
 import json
 import os
@@ -15,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 
 from signimit.exceptions import FileFormatError, InvalidInputError, MissingDependencyError
+from signimit.io.archive import MAX_BYTES, MAX_RATIO
 from signimit.io.safe_files import check_vacant, whole_folder
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 MARKER = "data/metadata.json"
 _OUR_KEY = "signimit"  # of the header in the metadata
 _ROOT = "MINARI_DATASETS_PATH"  # environment variable with the folder of all data sets
+_OVERHEAD = 2**17  # bytes of HDF5's own in an episode, at most
 _REQUIREMENTS = ["signimit", f"mujoco=={mujoco.__version__}"]
 
 
@@ -69,7 +72,7 @@ def create_dataset(
     check_vacant(place, MARKER, overwrite)
     if namespace is not None and namespace not in minari.namespace.list_local_namespaces():
         minari.namespace.create_namespace(namespace)
-    with whole_folder(place, MARKER, overwrite) as draft:
+    with whole_folder(place, MARKER, overwrite) as draft, _disk_errors(draft, buffers):
         with _datasets_in(draft / "root"), warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # that there is no author, no permalink and so on
             dataset = minari.create_dataset_from_buffers(
@@ -103,14 +106,45 @@ def open_dataset(place: str | os.PathLike[str], kind: str, version: int) -> tupl
         found, number = header["kind"], int(header["version"])
         # Without these Minari would make the environment that the file names, and so run foreign code.
         _ = metadata["observation_space"], metadata["action_space"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
         expected = f"a whole Minari data set with a {kind} of signimit"
         raise FileFormatError(os.fspath(place), expected, _reason(error)) from None
     if found != kind or number > version:
         expected = f"a Minari data set with a {kind} of signimit, version <= {version}"
         raise FileFormatError(os.fspath(place), expected, f"{found} version {number}")
     with minari_errors(place):
+        _refuse_bombs(Path(place) / "data" / "main_data.hdf5", int(metadata["total_episodes"]))
         return minari.MinariDataset(Path(place) / "data"), header
+
+
+def _refuse_bombs(path: Path, episodes: int) -> None:
+    """Refuse a file that promises more episodes or numbers than its bytes can tell."""
+    h5py = importlib.import_module("h5py")
+    sizes: list[int] = []
+    with h5py.File(path, "r") as file:
+        if not 0 <= episodes <= len(file):
+            raise FileFormatError(str(path), f"{episodes} episodes, as its metadata says", f"{len(file)}")
+        file.visititems(lambda name, item: sizes.append(item.nbytes if isinstance(item, h5py.Dataset) else 0))
+    most = min(MAX_BYTES, MAX_RATIO * path.stat().st_size)
+    if sum(sizes) > most:
+        raise FileFormatError(str(path), f"at most {most} bytes unpacked", f"{sum(sizes)}")
+
+
+@contextmanager
+def _disk_errors(draft: Path, buffers: Sequence[EpisodeBuffer]) -> Iterator[None]:
+    """Raise an `OSError` where the disk is full: HDF5 says so in ways of its own, so that is looked at beforehand."""
+    needed = _OVERHEAD * (1 + len(buffers)) + sum(_bytes_of(vars(buffer)) for buffer in buffers)
+    if shutil.disk_usage(draft).free < needed:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(draft))
+    try:
+        yield
+    except RuntimeError as error:
+        raise OSError(errno.EIO, os.strerror(errno.EIO), str(draft)) from error
+
+
+def _bytes_of(value: Any) -> int:
+    """Return the size of the arrays in a nested dict."""
+    return sum(map(_bytes_of, value.values())) if isinstance(value, dict) else getattr(value, "nbytes", 0)
 
 
 @contextmanager
@@ -118,9 +152,9 @@ def minari_errors(place: str | os.PathLike[str]) -> Iterator[None]:
     """Raise a `FileFormatError` for any error of Minari or HDF5 in a broken data set."""
     try:
         yield
-    except (OSError, ValueError, KeyError, TypeError, AssertionError, AttributeError, IndexError) as error:
-        if isinstance(error, InvalidInputError):
-            raise FileFormatError(f"{place}: {error.where}", error.expected, error.found) from None
+    except InvalidInputError as error:
+        raise FileFormatError(f"{place}: {error.where}", error.expected, error.found) from None
+    except Exception as error:  # Minari and HDF5 fail on damaged files in many ways
         raise FileFormatError(os.fspath(place), "a whole Minari data set", _reason(error)) from None
 
 

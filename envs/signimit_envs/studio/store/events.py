@@ -18,7 +18,7 @@ from signimit.demonstrations import Demonstration
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import Stroke
 from signimit.teaching.languages import Request
-from signimit.validation import finite_array
+from signimit.validation import finite_array, plain_text
 from signimit_envs.arm.scene import OBJECT_COUNTS
 
 Signs = tuple[Stroke, ...]
@@ -45,12 +45,14 @@ class DrawnDemonstration:
     by: str = "person"
 
     def __post_init__(self) -> None:
-        """Check the scene.
+        """Check what comes from a file.
 
         Raises:
-            InvalidInputError: If the objects are no positions.
+            InvalidInputError: If the learner could not take it, or ``by`` is no text.
         """
         object.__setattr__(self, "objects", finite_array(self.objects, "objects", (None, 2)))
+        plain_text(self.by, "by")
+        _ = self.demonstration
 
     @property
     def demonstration(self) -> Demonstration:
@@ -83,10 +85,10 @@ class Created:
             InvalidInputError: If it is something else.
         """
         texts = all(isinstance(text, str) for text in (self.title, self.created, self.language))
-        numbers = all(type(number) is int and number >= 0 for number in (self.objects, self.seed))
-        if not texts or not numbers or self.objects not in OBJECT_COUNTS:
+        if not texts or not all(map(_is_index, (self.objects, self.seed))) or self.objects not in OBJECT_COUNTS:
             found = f"{(self.title, self.created, self.language, self.objects, self.seed)!r:.80}"
             raise InvalidInputError("session", "a title, a time, a language, 2 to 6 objects and a seed", found)
+        plain_text(self.title + self.created + self.language, "session")
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +142,10 @@ class Titled:
 
     title: str
 
+    def __post_init__(self) -> None:
+        """Check what comes from a file."""
+        plain_text(self.title, "title")
+
 
 @dataclass(frozen=True, eq=False)
 class Asked:
@@ -159,6 +165,16 @@ class Asked:
     confidence: float
     request: Request | None = None
 
+    def __post_init__(self) -> None:
+        """Check what comes from a file.
+
+        Raises:
+            InvalidInputError: If it is something else.
+        """
+        _check_indices("asked: movement, focus", self.movement, self.focus)
+        if not 0 <= finite_array(self.confidence, "asked: confidence", ()) <= 1 + 1e-9:
+            raise InvalidInputError("asked: confidence", "a probability", f"{self.confidence:g}")
+
 
 @dataclass(frozen=True, eq=False)
 class Judged:
@@ -166,6 +182,21 @@ class Judged:
 
     number: int
     good: bool | None
+
+    def __post_init__(self) -> None:
+        """Check what comes from a file."""
+        if self.good is not None and not isinstance(self.good, bool):
+            raise InvalidInputError("judged: good", "true, false or null", f"{self.good!r:.40}")
+
+
+def _is_index(value: Any) -> bool:
+    return type(value) is int and value >= 0
+
+
+def _check_indices(where: str, *values: Any) -> None:
+    """Refuse what is no number that counts from 0."""
+    if not all(map(_is_index, values)):
+        raise InvalidInputError(where, "whole numbers, 0 or more", f"{values!r:.80}")
 
 
 Event = Created | Demonstrated | Redrawn | Deleted | Drafted | Undone | Redone | Titled | Asked | Judged
@@ -191,7 +222,7 @@ def event_from_json(value: Mapping[str, Any]) -> Event:
         kind = _KINDS[value["event"]]
         fields = {field.name: value[field.name] for field in dataclasses.fields(kind)}
         return kind(**{name: _field_from_json(name, given) for name, given in fields.items()})
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         if isinstance(error, InvalidInputError):
             raise
         raise InvalidInputError("event", f"one of {', '.join(_KINDS)}, whole", f"{error!r:.80}") from None
@@ -240,7 +271,7 @@ def _demonstration_from_json(value: Mapping[str, Any]) -> DrawnDemonstration:
         objects,
         _stroke_from_json(value["hand"]),
         _request_from_json(value["prompt"]),
-        str(value["by"]),
+        value["by"],
     )
 
 
@@ -253,4 +284,8 @@ def _strokes_from_json(values: Sequence[Mapping[str, Any]]) -> Signs:
 
 
 def _request_from_json(value: Sequence[int] | None) -> Request | None:
-    return None if value is None else Request(int(value[0]), int(value[1]))
+    if value is None:
+        return None
+    movement, focus = value
+    _check_indices("request", movement, focus)
+    return Request(movement, focus)

@@ -176,5 +176,5 @@ def _drafted(history: History, event: Drafted) -> Draft:
 
 
 def _check_number(number: int, count: int, what: str) -> None:
-    if number not in range(count):
+    if type(number) is not int or number not in range(count):
         raise InvalidInputError(what, f"a number below {count}", f"{number!r:.40}")

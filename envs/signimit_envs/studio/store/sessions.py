@@ -10,8 +10,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from signimit.exceptions import InvalidInputError, SignimitError
+from signimit.exceptions import FileFormatError, InvalidInputError, SignimitError
 from signimit.io.safe_files import append_record, read_records
+from signimit.validation import finite_array, whole_numbers
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.store.events import Created, Event, event_from_json, event_to_json
 from signimit_envs.studio.store.history import History, replay_events
@@ -111,8 +112,25 @@ class SessionStore:
         append_record(self._track(session, answer), part)
 
     def read_track(self, session: str, answer: int) -> list[dict[str, Any]]:
-        """Read the parts of the track of an answer; none if the arm did nothing."""
-        return read_records(self._track(session, answer))
+        """Read the parts of the track of an answer; none if the arm did nothing.
+
+        Raises:
+            FileFormatError: Names the line that is no part of a track.
+        """
+        track = self._track(session, answer)
+        parts = read_records(track)
+        for number, part in enumerate(parts, 1):
+            try:
+                steps = len(finite_array(part["path"], "path", (None, 2)))
+                finite_array(part["objects"], "objects", (steps, None, 2))
+                if whole_numbers(part["first"], "first", ()) < 0 or finite_array(part["rate"], "rate", ()) <= 0:
+                    raise InvalidInputError("first, rate", "0 or more, and above 0", f"{part['first'], part['rate']}")
+            except KeyError as error:
+                raise FileFormatError(f"{track}: line {number}", f"an entry {error}", "none") from None
+            except InvalidInputError as error:
+                where = f"{track}: line {number}: {error.where}"
+                raise FileFormatError(where, error.expected, error.found) from None
+        return parts
 
     def _track(self, session: str, answer: int) -> Path:
         return self._folder / session / f"track-{answer:d}.jsonl"

@@ -88,8 +88,8 @@ def test_the_store_takes_only_so_many(store: SessionStore, monkeypatch: pytest.M
 
 def test_tracks_are_kept_beside_and_apart(store: SessionStore) -> None:
     name = store.create(BEGINNING)
-    store.append_track(name, 0, {"path": [[0, 0]]})
-    store.append_track(name, 1, {"path": [[1, 1]]})
-    store.append_track(name, 0, {"path": [[2, 2]]})
-    assert store.read_track(name, 0) == [{"path": [[0, 0]]}, {"path": [[2, 2]]}]
+    parts = [{"first": n, "rate": 50, "path": [[n, n]], "objects": [[[n, 0]]]} for n in range(3)]
+    for answer, part in ((0, parts[0]), (1, parts[1]), (0, parts[2])):
+        store.append_track(name, answer, part)
+    assert store.read_track(name, 0) == [parts[0], parts[2]]
     assert store.read_track(name, 2) == []
