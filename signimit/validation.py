@@ -119,6 +119,21 @@ def told_apart(first: float, second: float) -> tuple[str, str]:
     return next((pair for pair in pairs if pair[0] != pair[1]), (f"{first:g}", f"{second:g}"))
 
 
+def plain_text(value: str, where: str) -> str:
+    """Return a text that can be written to files and screens.
+
+    Raises:
+        InvalidInputError: If it is no text, or has half a character of UTF-16 (a lone surrogate).
+    """
+    if not isinstance(value, str):
+        raise InvalidInputError(where, "text", type(value).__name__)
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        raise InvalidInputError(where, "text in Unicode", f"{value!a:.40}") from None
+    return value
+
+
 def item_list(values: Iterable[Any], where: str) -> list[Any]:
     """Return the items of what should be a list, at least one.
 

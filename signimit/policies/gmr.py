@@ -100,6 +100,8 @@ def _have_densities(covariances: Array) -> bool:
         precisions = np.linalg.inv(covariances)
     except np.linalg.LinAlgError:
         return False
+    if (np.abs(precisions) > 1 / _LEAST_VARIANCE).any():
+        return False
     inverse = np.linalg.eigvalsh(precisions + precisions.swapaxes(1, 2)) / 2
     return bool(((inverse > 0) & (inverse < 1 / _LEAST_VARIANCE)).all())
 

@@ -189,8 +189,8 @@ def _false_sizes(packed: bytes, rng: Rng) -> bytes:
 
 def _read(raw: bytes) -> NDArray[Any]:
     array: NDArray[Any] = np.lib.format.read_array(io.BytesIO(raw), allow_pickle=False)
-    if not array.size:
-        raise ValueError("nothing to change; with a shape of (10**12, 0) it would take for ever")
+    if not array.nbytes:
+        raise ValueError("nothing to change, which takes for ever with 10**12 rows of nothing")
     return array
 
 

@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from signimit.exceptions import SignimitError
+from signimit.io.formats.import_report import StrokeImportWarning
 from signimit_envs.robustness.archives import mutate_archive
 from signimit_envs.robustness.datasets import mutate_hdf5, mutate_parquet
 from signimit_envs.robustness.loaders import LOADERS
@@ -135,8 +136,11 @@ def fuzz_loaders(
                 tally = tally._replace(faults=(*tally.faults, fault))
                 if task.numbers[1:]:
                     waiting.append(task._replace(numbers=task.numbers[1:]))
-                if keep is not None:
-                    keep_input(task.loader, culprit, seed, keep)
+                if keep is not None:  # in a process, too: it may be making the file that takes for ever
+                    keeping = PROCESSES.Process(target=keep_input, args=(task.loader, culprit, seed, keep))
+                    keeping.start()
+                    keeping.join(LONGEST)
+                    keeping.kill()
             yield task.loader, tally
 
 
@@ -175,6 +179,7 @@ def try_file(name: str, number: int, seed: int, folder: Path) -> str | None:
     try:
         with deadline(LONGEST), warnings.catch_warnings(), np.errstate(all="warn", under="ignore"):
             warnings.simplefilter("error")
+            warnings.simplefilter("ignore", StrokeImportWarning)  # says what was repaired or left out
             try:
                 found = loader.read(place)
             except REFUSALS as error:

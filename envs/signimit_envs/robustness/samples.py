@@ -46,27 +46,32 @@ from signimit_envs.studio.store.sessions import SessionStore
 SESSION = "20260102-030405-0123abcd"  # a studio's name for one
 ENTRY = "chance"  # of the benchmark, for results
 MINARI_ROOT = "MINARI_DATASETS_PATH"
-_UNIPEN = """.VERSION 1.0
+_UNIPEN = """.INCLUDE        dene.doc
+
+.LEXICON "0" "1" "2"
+.HIERARCHY      DIGIT
+
+.SEGMENT DIGIT   30 ? "6"
 .COMMENT 6 13   38
-.LEXICON "0" "1"
-.HIERARCHY DIGIT
-.COORD X Y
-.SEGMENT DIGIT 30 ? "6"
 .PEN_DOWN
- 238 326
- 239 328
- 240 329
+ 238  326
+ 239  328
+ 240  329
+.PEN_UP
+.DT 100
+
+.SEGMENT DIGIT  112-113 ? "7"
+.COMMENT 7 13  187
+.PEN_DOWN
+ 0  0
+ 10 0
 .PEN_UP
 .DT 100
 .PEN_DOWN
  10 20
  20 20
 .PEN_UP
-.SEGMENT DIGIT 31 OK "1"
-.PEN_DOWN
- 0 0
- 0 9
-.PEN_UP
+.DT 100
 """
 _DOLLAR = """<?xml version="1.0" encoding="utf-8" standalone="yes"?>
 <Gesture Name="circle03" Subject="2" Speed="slow" Number="3" NumPts="4" Millseconds="15">
@@ -83,7 +88,7 @@ _INKML = """<?xml version="1.0"?>
     <channel name="T" type="integer" units="ms"/></traceFormat></inkSource></context></definitions>
   <traceGroup><annotation type="label">a</annotation><annotation type="writer">ann</annotation>
     <trace contextRef="#c" id="t1">0 0 0, 3 4 10, 6 4 20</trace>
-    <trace contextRef="#c" id="t2">9 4 40, '1 "1 50, 12 9 60</trace></traceGroup>
+    <trace contextRef="#c" id="t2">9 4 40, 10 5 50, 12 9 60</trace></traceGroup>
   <trace contextRef="#c">1 1 100, 2 2 110</trace>
 </ink>
 """
