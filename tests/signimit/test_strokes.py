@@ -154,3 +154,18 @@ def test_a_library_shows_counts_not_arrays() -> None:
     assert repr(strokes[0]) == "Stroke(2 points, 1.50 s)"
     library = StrokeLibrary(tuple(strokes), ("4", "4", "7"), ("ann",) * 3, "synthetic")
     assert repr(library) == "StrokeLibrary(3 strokes, 2 labels, 1 writer, source='synthetic')"
+
+
+@pytest.mark.parametrize(
+    "parts", [{"labels": ("half \ud800",)}, {"writers": ("\udfff",)}, {"source": "\ud800"}, {"source": 7}]
+)
+def test_text_that_cannot_be_printed_is_refused(parts: Any) -> None:
+    whole = {"strokes": (stroke(),), "labels": ("4",), "writers": ("ann",), "source": ""}
+    with pytest.raises(InvalidInputError, match="expected text"):
+        StrokeLibrary(**{**whole, **parts})
+
+
+@pytest.mark.parametrize("offsets", [[0, 2**63 - 1, -(2**63), -1, 3], [0, -1, 3], [0, 4, 3], [0.0, 3.0]])
+def test_offsets_that_leave_the_array_are_refused_even_if_their_differences_overflow(offsets: Any) -> None:
+    with pytest.raises(InvalidInputError, match="offsets of points: expected whole numbers rising from 0 to 3"):
+        cut(LINE, "points", offsets)

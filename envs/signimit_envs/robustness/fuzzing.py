@@ -110,6 +110,7 @@ def fuzz_loaders(
         for size in [SLOW_CHUNK if LOADERS[name].slow else CHUNK]
         for start in range(0, count, size)
     ]
+    tasks.sort(key=lambda task: task.numbers.start / counts[task.loader])  # all loaders come to their end together
     waiting, running = list(reversed(tasks)), dict[Connection, tuple[Any, Task, Tally]]()
     while waiting or running:
         while waiting and len(running) < workers:

@@ -228,7 +228,7 @@ LOADERS = {
     "signimit.io.formats.csv_demonstrations.read_csv_demonstrations": Loader(
         samples.write_csv_folder, read_csv_demonstrations, use_demonstrations
     ),
-    "signimit.io.formats.inkml.read_inkml": Loader(samples.write_inkml_files, read_inkml, use_library),
+    "signimit.io.formats.inkml.reading.read_inkml": Loader(samples.write_inkml_files, read_inkml, use_library),
     "signimit.io.formats.unipen.drawings.read_unipen": Loader(samples.write_unipen_file, read_unipen, use_library),
     "signimit.io.formats.dollar.read_dollar": Loader(samples.write_dollar_file, read_dollar, use_library),
     "signimit.io.formats.reading.read_strokes": Loader(
@@ -264,12 +264,12 @@ READ_THROUGH = {
     "signimit.io.archive.read_archive": "signimit.strokes.StrokeLibrary.load",
     "signimit.io.safe_files.read_records": "signimit_envs.studio.store.sessions.SessionStore.read",
     "signimit.io.formats.csv_tables.read_table": "signimit.io.formats.csv_demonstrations.read_csv_demonstrations",
-    "signimit.io.formats.pen_recording.import_pen_file": "signimit.io.formats.inkml.read_inkml",
+    "signimit.io.formats.pen_recording.import_pen_file": "signimit.io.formats.inkml.reading.read_inkml",
     "signimit.io.formats.reading.import_strokes": "signimit.io.formats.reading.read_strokes",
     "signimit.io.formats.textfile.read_any_text": "signimit.io.formats.unipen.drawings.read_unipen",
     "signimit.io.formats.textfile.read_bytes": "signimit.io.formats.dollar.read_dollar",
     "signimit.io.formats.textfile.read_text": "signimit.io.formats.unipen.drawings.read_unipen",
-    "signimit.io.formats.textfile.read_xml": "signimit.io.formats.inkml.read_inkml",
+    "signimit.io.formats.textfile.read_xml": "signimit.io.formats.inkml.reading.read_inkml",
     "signimit.learners.model_files.read_model": "signimit.learning.ImitationModel.load",
     "signimit.policies.storage.read_policy_arrays": "signimit.policies.load_policy",
     "signimit.benchmark.results.read_summaries": "signimit.benchmark.results.ResultFile.read",

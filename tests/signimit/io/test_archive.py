@@ -206,3 +206,43 @@ def test_damage_in_any_compression_is_refused(path: Path, compression: int) -> N
             read_archive(path, "thing", 2)
         except FileFormatError:
             continue
+
+
+@pytest.mark.parametrize("point", [0x110000, 0xFFFFFFFF, 0xD800, 0xDFFF])
+@pytest.mark.parametrize("order", ["<", ">"])
+def test_text_of_characters_that_there_are_not_is_refused(path: Path, point: int, order: str) -> None:
+    """Numpy would raise a SystemError when such an element is read; half a character could not be printed."""
+    text = array_of(f"{order}U1", "(2,)", struct.pack(f"{order}II", 0x41, point))
+    with pytest.raises(FileFormatError, match=r"names\.npy: expected text in Unicode"):
+        read_archive(replaced(path, "names.npy", text), "thing", 2)
+
+
+def test_meta_with_half_a_character_is_refused(path: Path) -> None:
+    write_archive(path, "thing", 1, {}, {"a": "\ud800"})  # JSON writes it in ASCII
+    with pytest.raises(FileFormatError, match="UnicodeEncodeError"):
+        read_archive(path, "thing", 2)
+
+
+@pytest.mark.parametrize("shape", ["(1000000000000, 0)", "(0, 1000000000000)", "(1000000000000,)"])
+def test_a_shape_that_its_bytes_cannot_tell_is_refused(path: Path, shape: str) -> None:
+    """Rows of nothing take no bytes; as a list they would take all there are."""
+    with pytest.raises(FileFormatError, match="expected at most"):
+        read_archive(replaced(path, "x.npy", array_of("|b1", shape)), "thing", 2)
+
+
+@pytest.mark.parametrize("version", [0, -1])
+def test_versions_begin_at_1(path: Path, version: int) -> None:
+    write_archive(path, "thing", version, {})
+    with pytest.raises(FileFormatError, match=f"found thing version {version}"):
+        read_archive(path, "thing", 2)
+
+
+def test_a_size_that_the_compressed_bytes_cannot_tell_is_refused(path: Path) -> None:
+    """What the directory of an archive promises is allocated before it is read."""
+    raw = bytearray(written(path).read_bytes())
+    for at in range(len(raw)):
+        if raw[at : at + 4] == b"PK\x01\x02":
+            raw[at + 24 : at + 28] = struct.pack("<I", 2**27)
+    path.write_bytes(raw)
+    with pytest.raises(FileFormatError, match="expected an entry of its own size"):
+        read_archive(path, "thing", 2)

@@ -233,6 +233,64 @@ def test_a_full_disk_does_not_spoil_what_is_there(tmp_path: Path, monkeypatch: p
     assert read_records(journal) == [{"a": 1}, {"a": 3}]
 
 
+def test_what_a_full_disk_did_not_take_of_a_line_is_not_written_later(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Room for a part of a line: a buffered file would write the rest of it when it is closed, behind the cut."""
+    resource = pytest.importorskip("resource")
+    journal = tmp_path / "journal"
+    append_record(journal, {"a": 1})
+    before, most = journal.read_bytes(), resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(before) + 5, most[1]))
+    try:
+        with pytest.raises(OSError, match="File too large") as error:
+            append_record(journal, {"a": "x" * 1000})
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, most)
+    assert error.value.filename == str(journal)
+    assert journal.read_bytes() == before
+
+
+def test_a_full_disk_is_told_with_the_name_that_the_caller_gave(tmp_path: Path) -> None:
+    def fill() -> None:
+        with replaced_file(tmp_path / "a.txt"):
+            raise OSError(28, "No space left on device")  # as a write says it, without a name
+
+    with pytest.raises(OSError, match="No space left") as error:
+        fill()
+    assert error.value.filename == str(tmp_path / "a.txt")
+
+
+def test_an_error_about_another_file_keeps_its_name(tmp_path: Path) -> None:
+    def read() -> None:
+        with replaced_file(tmp_path / "a.txt"):
+            (tmp_path / "other.txt").read_bytes()
+
+    with pytest.raises(FileNotFoundError) as error:
+        read()
+    assert error.value.filename == str(tmp_path / "other.txt")
+
+
+@pytest.mark.skipif(sys.platform not in ("linux", "darwin"), reason="folders are replaced by two renames there")
+def test_a_data_set_is_never_missing_while_it_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two folders change names at once: whoever is killed between two renames would leave none."""
+    filled(tmp_path / "set", "one")
+    renames: list[object] = []
+    monkeypatch.setattr(os, "rename", lambda *names: renames.append(names))
+    filled(tmp_path / "set", "two", overwrite=True)
+    assert (tmp_path / "set" / "marker.txt").read_text() == "two"
+    assert [path.name for path in tmp_path.iterdir()] == ["set"]
+    assert renames == []
+
+
+def test_where_folders_cannot_be_exchanged_they_are_renamed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("signimit.io.safe_files._exchanged", lambda *folders: False)
+    filled(tmp_path / "set", "one")
+    filled(tmp_path / "set", "two", overwrite=True)
+    assert (tmp_path / "set" / "marker.txt").read_text() == "two"
+    assert [path.name for path in tmp_path.iterdir()] == ["set"]
+
+
 @pytest.mark.parametrize("line", [b"[1]\n", b"nonsense\n", b"\xff\xfe\n", b"[" * 100_000 + b"\n"])
 def test_a_line_of_something_else_is_named(line: bytes, tmp_path: Path) -> None:
     journal = tmp_path / "journal"

@@ -36,6 +36,7 @@ def test_every_module_is_a_command() -> None:
         "options",
         "plain-help",
         "result-tables",
+        "fuzz-files",
         "fuzz-studio",
         "study-judge",
         "study-paper",

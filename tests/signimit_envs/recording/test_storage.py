@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,6 +42,10 @@ def test_a_half_written_file_is_refused(recording: Recording, tmp_path: Path) ->
         ("steps", [65, 0], "expected numbers for 65 steps"),
         ("states", None, "episode 0: episode: expected an array 'states', found none"),
         ("controls", np.full((65, 3), np.inf), "episode 0: controls: expected finite numbers"),
+        ("controls", np.full((65, 3), "1.5"), "episode 0: controls: expected numbers for 40 steps, found <U3 of shape"),
+        ("rewards", np.zeros(65, np.complex128), "episode 0: rewards: expected numbers for 40 steps, found complex128"),
+        ("states", np.full((67, 30), 1e200), "episode 0: states: expected finite numbers"),
+        ("rewards", np.full(65, np.longdouble("1e4000")), "episode 0: rewards: expected finite numbers"),
         ("wheels", np.zeros(65), "expected the fields of an episode, found 'wheels'"),
     ],
 )
@@ -66,3 +72,9 @@ def test_a_header_without_a_model_is_refused(tmp_path: Path) -> None:
     write_archive(tmp_path / "a.npz", "recording", 1, {"steps": np.array([1]), "rewards": np.zeros(1)}, {"seeds": [0]})
     with pytest.raises(si.SignimitError, match="expected the environment and model of a recording"):
         load_recording(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize("seed", [-1, 0.5, "7"])
+def test_a_seed_that_no_environment_takes_is_refused(recording: Recording, seed: Any) -> None:
+    with pytest.raises(si.InvalidInputError, match="seed: expected a whole number, 0 or more, or none, found"):
+        replace(recording[0], seed=seed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -10,7 +11,6 @@ import numpy as np
 import pytest
 
 from signimit import FileFormatError
-from signimit_envs.robustness import fuzzing
 from signimit_envs.robustness.archives import mutate_archive
 from signimit_envs.robustness.fuzzing import Fault, fuzz_loaders, samples_of, write_input
 from signimit_envs.robustness.loaders import LOADERS, NOT_FUZZED, READ_THROUGH, Loader, find_loaders
@@ -64,7 +64,7 @@ def test_a_mutation_depends_on_its_generator_alone(mutate: Callable[[bytes, np.r
 
 def test_a_file_can_be_made_again_from_its_number(tmp_path: Path) -> None:
     name = "signimit.policies.load_policy"
-    made = []
+    made = list[bytes]()
     for number in (3, 3, 4):
         folder = tmp_path / str(len(made))
         folder.mkdir()
@@ -89,7 +89,7 @@ def _divide(value: int) -> None:
 
 
 def _die(value: int) -> None:
-    fuzzing.os._exit(7)
+    os._exit(7)
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,7 +15,7 @@ from signimit_envs.robustness.no_room import try_without_room
 
 KILLS = 2  # of each writer; `python -m signimit fuzz kill` does it 200 times
 EXTRAS = {"minari": ("minari", "h5py"), "lerobot": ("pyarrow",), "inkml": ("defusedxml",)}
-pytestmark = pytest.mark.skipif(killing.sys.platform == "win32", reason="there is no SIGKILL")
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")
 
 
 def need_extras(name: str) -> None:
@@ -59,7 +61,7 @@ def _version(folder: Path) -> int:
 
 @pytest.mark.parametrize(("write", "careful"), [(_write_carelessly, False), (_write_carefully, True)])
 def test_a_writer_that_loses_something_is_noticed(
-    write: killing.Callable[[Path, int], None], careful: bool, monkeypatch: pytest.MonkeyPatch
+    write: Callable[[Path, int], None], careful: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(killing, "WRITERS", {"number": Writer(write, _version)})
     assert (kill_writer("number", 6, seed=2).losses == ()) is careful

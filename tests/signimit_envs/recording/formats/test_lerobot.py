@@ -235,6 +235,13 @@ def test_a_half_written_data_set_is_refused_in_one_sentence(stored: Path, file: 
     assert complaint in str(refusal.value)
 
 
+def test_a_table_of_more_numbers_than_memory_is_refused(stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A column that repeats one number takes hardly a byte for a million."""
+    monkeypatch.setattr("signimit_envs.recording.formats.lerobot.frames.MAX_BYTES", 8 * 1000)
+    with pytest.raises(si.SignimitError, match="expected at most 1000 numbers, found"):
+        read_lerobot_recording(stored)
+
+
 def test_missing_frames_and_other_versions_are_noticed(stored: Path, demonstrations: si.DemonstrationSet) -> None:
     table = parquet.read_table(stored / DATA)
     parquet.write_table(table.slice(0, 60), stored / DATA)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +21,7 @@ from signimit_envs.recording.formats.minari_demonstrations import (
 from signimit_envs.recording.formats.minari_recordings import read_minari_recording, write_minari_recording
 
 minari = pytest.importorskip("minari")
-pytest.importorskip("h5py")
+h5py = pytest.importorskip("h5py")
 Same = Callable[[Recording, Recording], None]
 NAME = "signimit/test-v0"
 
@@ -99,6 +101,42 @@ def test_what_breaks_off_leaves_nothing(
         write_minari_recording(NAME, recording)
     assert [path for path in minari_root.rglob("*") if path.is_dir()] == [minari_root / "signimit"]
     assert os.environ["MINARI_DATASETS_PATH"] == str(minari_root)
+
+
+def test_a_disk_that_is_full_or_fails_is_told_as_for_any_file(
+    recording: Recording, minari_root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """HDF5 has errors of its own, and tells of each object that it could not write: room is looked for beforehand."""
+    full = minari_root / "signimit" / "full-v0"
+    with monkeypatch.context() as patch:
+        patch.setattr("shutil.disk_usage", lambda path: SimpleNamespace(free=1000))
+        with pytest.raises(OSError, match="No space left") as error:
+            write_minari_recording("signimit/full-v0", recording)
+    assert error.value.filename == str(full)
+
+    def broken(*_: object, **__: object) -> None:
+        raise RuntimeError("Can't decrement id ref count")
+
+    monkeypatch.setattr(minari, "create_dataset_from_buffers", broken)
+    with pytest.raises(OSError, match="Input/output error") as error:
+        write_minari_recording("signimit/full-v0", recording)
+    assert error.value.filename == str(full)
+    assert not any(path.is_dir() for path in (minari_root / "signimit").iterdir())
+
+
+def test_promises_that_a_file_cannot_keep_are_refused(stored: Path) -> None:
+    """Numbers that were never written take no room in HDF5, and episodes are counted in the metadata."""
+    file = stored / "data" / "metadata.json"
+    metadata = json.loads(file.read_text())
+    file.write_text(json.dumps({**metadata, "total_episodes": 10**9}))
+    with pytest.raises(si.SignimitError, match="expected 1000000000 episodes, as its metadata says, found 2"):
+        read_minari_recording(stored)
+    file.write_text(json.dumps(metadata))
+    with h5py.File(stored / "data" / "main_data.hdf5", "r+") as data:
+        del data["episode_0/rewards"]
+        data.create_dataset("episode_0/rewards", (10**12,), chunks=(1000,), dtype="f8")
+    with pytest.raises(si.SignimitError, match="bytes unpacked, found 80000"):
+        read_minari_recording(stored)
 
 
 @pytest.mark.parametrize("size", [0, 100_000])

@@ -107,3 +107,28 @@ def test_whatever_a_file_says_it_is_an_event_or_refused_in_a_sentence(value: dic
     except InvalidInputError:
         return
     assert type(event).__name__.lower() == value["event"]
+
+
+@pytest.mark.parametrize(
+    ("event", "sentence"),
+    [
+        ({"event": "titled", "title": ["a"]}, "title: expected text, found list"),
+        ({"event": "titled", "title": "half \ud800"}, "title: expected text in Unicode"),
+        ({"event": "judged", "number": 0, "good": "yes"}, "judged: good: expected true, false or null"),
+        ({"event": "asked", "signs": [], "movement": "0", "focus": 0, "confidence": 0.5, "request": None}, "movement"),
+        ({"event": "asked", "signs": [], "movement": 0, "focus": -1, "confidence": 0.5, "request": None}, "focus"),
+        ({"event": "asked", "signs": [], "movement": 0, "focus": 0, "confidence": 1.5, "request": None}, "probability"),
+        ({"event": "asked", "signs": [], "movement": 0, "focus": 0, "confidence": "1", "request": None}, "confidence"),
+        ({"event": "asked", "signs": [], "movement": 0, "focus": 0, "confidence": 1, "request": "01"}, "request"),
+    ],
+)
+def test_what_the_page_could_not_show_is_no_event(event: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(InvalidInputError, match=sentence):
+        event_from_json(event)
+
+
+def test_a_demonstration_that_cannot_be_learned_from_is_no_event(shown: Callable[[], DrawnDemonstration]) -> None:
+    event = event_to_json(Demonstrated((shown(),)))
+    event["shown"][0]["hand"]["points"][0] = [1e9, 0.0]
+    with pytest.raises(InvalidInputError, match="hand: expected numbers within 500"):
+        event_from_json(event)

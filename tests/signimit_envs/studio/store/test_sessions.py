@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from signimit import InvalidInputError
+from signimit import FileFormatError, InvalidInputError
 from signimit_envs.studio.limits import Limits
 from signimit_envs.studio.store.events import Asked, Created, Demonstrated, DrawnDemonstration, Titled
 from signimit_envs.studio.store.sessions import ID_PATTERN, SessionStore
@@ -93,3 +94,22 @@ def test_tracks_are_kept_beside_and_apart(store: SessionStore) -> None:
         store.append_track(name, answer, part)
     assert store.read_track(name, 0) == [parts[0], parts[2]]
     assert store.read_track(name, 2) == []
+
+
+@pytest.mark.parametrize(
+    ("part", "sentence"),
+    [
+        ({"path": [[0, 0]]}, "expected an entry 'objects', found none"),
+        ({"path": [[0, "x"]], "objects": [[[0, 0]]], "first": 0, "rate": 50}, "path: expected numbers"),
+        ({"path": [[0, 0]], "objects": [], "first": 0, "rate": 50}, "objects: expected numbers of shape (1, n, 2)"),
+        ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 0.5, "rate": 50}, "first, rate: expected 0 or more"),
+        ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 0, "rate": 0}, "first, rate: expected 0 or more"),
+    ],
+)
+def test_a_line_that_is_no_part_of_a_track_is_named(store: SessionStore, part: dict[str, Any], sentence: str) -> None:
+    name = store.create(BEGINNING)
+    store.append_track(name, 0, part)
+    with pytest.raises(FileFormatError) as error:
+        store.read_track(name, 0)
+    assert "track-0.jsonl: line 1" in str(error.value)
+    assert sentence in str(error.value)
