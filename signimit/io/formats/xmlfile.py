@@ -110,11 +110,14 @@ class _OpenElements(TreeBuilder):
 
     def __init__(self) -> None:
         super().__init__()
+        self.root: Element | None = None
         self.open: list[Element] = []
 
     def start(self, tag: Any, attrs: dict[Any, Any], /) -> Element:
-        self.open.append(super().start(tag, attrs))
-        return self.open[-1]
+        element = super().start(tag, attrs)
+        self.root = element if self.root is None else self.root
+        self.open.append(element)
+        return element
 
     def end(self, tag: str, /) -> Element:
         self.open.pop()
@@ -124,6 +127,7 @@ class _OpenElements(TreeBuilder):
 def _whole_drawings(broken: str | bytes) -> Element | None:
     """Return the root of broken XML without the drawing that is broken; none unless others stand before it.
 
+    If there is something behind the root, as in logs that were appended to, that is the whole root.
     Where drawings are views of traces, a drawing that is missing would leave traces that seem to be in none.
     """
     from defusedxml.ElementTree import DefusedXMLParser, ParseError
@@ -135,6 +139,8 @@ def _whole_drawings(broken: str | bytes) -> Element | None:
         parser.close()
     except (ParseError, ValueError):
         pass
+    if not builder.open:
+        return builder.root
     for parent, child in pairwise(builder.open):
         name = local_name(child)
         if name in _DRAWINGS and any(local_name(other) == name for other in parent if other is not child):

@@ -120,6 +120,8 @@ GESTURE = '<Gesture Name="{}"><Point X="0" Y="0" T="0"/><Point X="{}" Y="1" T="2
             ["a", "b"],
         ),
         (f"<Gestures>{GESTURE.format('a', 1)}{GESTURE.format('b', 2)[:40]}", ["a"]),
+        (f"{GESTURE.format('a', 1)}\n<?xml version='1.0'?>{GESTURE.format('b', 2)}", ["a"]),  # appended to
+        (f"<ink>{GROUP.format('a', 1)}</ink> written by hand", ["a"]),
         (f"<!-- \xe9 --><Gestures>{GESTURE.format('a', 1)}{GESTURE.format('b', 2)[:40]}", ["a"]),
     ],
 )
