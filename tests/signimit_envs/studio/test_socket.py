@@ -6,6 +6,7 @@ import asyncio
 import json
 import struct
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,8 @@ from signimit_envs.studio.arm.live_state import LiveState
 from signimit_envs.studio.arm.viewers import Viewer, Viewers
 from signimit_envs.studio.web.messages import Drag, Shove, Watch, read_socket_message
 
+WebSocketDisconnect = pytest.importorskip("fastapi", reason="the studio needs signimit[studio]").WebSocketDisconnect
+live = pytest.importorskip("signimit_envs.studio.web.routes.ask").live
 client = pytest.importorskip("websockets.sync.client", reason="the studio needs signimit[studio]")
 exceptions = pytest.importorskip("websockets.exceptions")
 Json = dict[str, Any]
@@ -136,6 +139,34 @@ def test_too_many_messages_close_the_socket(page: Any, monkeypatch: pytest.Monke
         monkeypatch.setattr("signimit_envs.studio.web.guard.Bucket.take", lambda self: False)
         _say(socket, type="shove", velocity=[0, 0])
         assert _closing_code(socket) == TOO_MANY
+
+
+class _Gone:
+    """A page that says nonsense, and is gone when it is told so."""
+
+    def __init__(self, gone_from: str) -> None:
+        self._gone_from = gone_from
+
+    async def accept(self) -> None:
+        if self._gone_from == "accept":
+            raise OSError
+
+    async def receive(self) -> Json:
+        return {"type": "websocket.receive", "text": "nonsense"}
+
+    async def close(self, code: int, reason: str) -> None:
+        raise WebSocketDisconnect(1006)
+
+
+@pytest.mark.parametrize("gone_from", ["accept", "close"])
+def test_a_page_that_is_gone_when_it_is_told_something_is_no_failure(gone_from: str) -> None:
+    async def come() -> int:
+        studio: Any = SimpleNamespace(viewers=Viewers())
+        socket: Any = _Gone(gone_from)
+        await live(studio, socket)
+        return len(studio.viewers)
+
+    assert asyncio.run(come()) == 0
 
 
 def test_only_so_many_pages_may_come(page: Any) -> None:

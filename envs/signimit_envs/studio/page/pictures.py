@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import tempfile
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import replace
@@ -22,7 +23,7 @@ from signimit_envs.studio.store.events import DrawnDemonstration
 from signimit_envs.studio.store.history import Answer
 from signimit_envs.video.films import film_shots
 from signimit_envs.video.mp4 import write_video
-from signimit_envs.video.storyboard import FRAME_RATE, Shot, show_answer, show_exchange
+from signimit_envs.video.storyboard import FRAME_RATE, STRIDE, Shot, show_answer, show_exchange
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +31,8 @@ if TYPE_CHECKING:
 FIGURES = range(4, 8)
 DOTS_PER_INCH = 110
 _KEPT_FIGURES = 24  # of a fifth of a megabyte each
-FILM_SECONDS = 20.0  # of an answer; drawing takes about as long as watching
+FILM_SECONDS = 20.0  # of an answer or a demonstration; drawing takes about as long as watching
+_COMPARED = 60_000  # points of all paths in all frames; ten times as many take a hundred times as long, minutes
 Track = Sequence[dict[str, Any]]
 
 
@@ -113,12 +115,14 @@ def similarities_json(model: ImitationModel) -> dict[str, Any]:
 
 
 def film_demonstration(shown: DrawnDemonstration, number: int) -> bytes:
-    """Film a demonstration, as the bytes of an mp4 file.
+    """Film a demonstration, a long one sped up, as the bytes of an mp4 file.
 
     Raises:
         RenderingError: If there is no OpenGL.
     """
-    return _film(show_exchange(shown.demonstration, f"Demonstration {number + 1}"), len(shown.objects))
+    speedup = math.ceil(len(shown.hand) / (FILM_SECONDS * FRAME_RATE * STRIDE))
+    title = f"Demonstration {number + 1}" + (f", {speedup} times as fast" if speedup > 1 else "")
+    return _film(show_exchange(shown.demonstration, title, speedup), len(shown.objects))
 
 
 def film_answer(answer: Answer, track: Track) -> bytes:
@@ -147,7 +151,14 @@ def _film(shots: Iterator[Shot], objects: int) -> bytes:
 def _distances(model: ImitationModel) -> NDArray[np.float64]:
     if len(model.demonstrations) < 2:
         raise InvalidInputError("session", "at least two demonstrations to compare", "one")
-    return policy_distances(model.demonstrations.paths, model.demonstrations.objects)
+    paths, objects = model.demonstrations.paths, model.demonstrations.objects
+    most = _COMPARED // (len(paths) * objects.shape[1])
+    return policy_distances([_thinned(path, most) for path in paths], objects)
+
+
+def _thinned(path: NDArray[np.float64], most: int) -> NDArray[np.float64]:
+    """Return at most so many points of a path, the first and the last among them."""
+    return path[np.linspace(0, len(path) - 1, min(most, len(path))).round().astype(np.intp)]
 
 
 def _draw_answers(model: ImitationModel, answers: Sequence[tuple[Answer, Track]]) -> Figure:

@@ -46,6 +46,7 @@ MEDIA_TYPES = {
     ".ico": "image/x-icon",
     ".webmanifest": "application/manifest+json",
 }
+_LOOKING = ["GET", "HEAD"]  # what checks whether an address is there asks for its head
 Play = Callable[[Studio], Coroutine[Any, Any, None]]
 _log = logging.getLogger(__name__)
 
@@ -125,11 +126,11 @@ def _serve_page(app: FastAPI) -> None:
     files = {file.name: file for file in folder.iterdir()} if folder.is_dir() else {}
     types = {name: MEDIA_TYPES.get("." + name.rpartition(".")[2]) for name in files}
 
-    @app.get("/", include_in_schema=False)
+    @app.api_route("/", methods=_LOOKING, include_in_schema=False)
     async def page() -> Response:
         return await page_file("index.html")
 
-    @app.get("/{name}", include_in_schema=False)
+    @app.api_route("/{name}", methods=_LOOKING, include_in_schema=False)
     async def page_file(name: str) -> Response:
         media_type = types.get(name)
         if media_type is None:

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
-from signimit_envs.studio.page.pictures import FigureCache
+from signimit import DemonstrationSet, Stroke
+from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.page import pictures
+from signimit_envs.studio.page.pictures import FigureCache, film_demonstration, similarities_json
+from signimit_envs.studio.store.events import DrawnDemonstration
+from signimit_envs.video.storyboard import FRAME_RATE
 
 Json = dict[str, Any]
 
@@ -49,3 +57,57 @@ def test_a_figure_is_drawn_again_only_when_the_demonstrations_have_changed(
     assert [look(6), look(6)] == [b"3", b"3"]
     assert [look(7), look(7)] == [b"4", b"5"]  # the arm may have gone on
     assert drawn == [2, 2, 3, 3, 3]
+
+
+def _drawn(points: int, objects: int = 3) -> DrawnDemonstration:
+    turn = np.linspace(0, 12, points)
+    stroke = Stroke(0.1 * np.column_stack([np.sin(turn), np.cos(turn)]), np.linspace(0, 100, points))
+    return DrawnDemonstration((stroke, stroke), np.arange(2.0 * objects).reshape(-1, 2) / 20, stroke)
+
+
+@pytest.mark.parametrize(("count", "points", "objects", "compared"), [(12, 300, 3, 300), (60, LIMITS.points, 6, 166)])
+def test_long_paths_are_compared_at_so_many_points_that_it_takes_seconds(
+    count: int, points: int, objects: int, compared: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lengths: set[int] = set()
+
+    def measure(paths: Any, places: Any) -> Any:
+        lengths.update(map(len, paths))
+        assert all((path[[0, -1]] == _drawn(points).hand.points[[0, -1]]).all() for path in paths)
+        return np.ones((count, count, objects, objects))
+
+    monkeypatch.setattr(pictures, "policy_distances", measure)
+    demonstrations = DemonstrationSet([_drawn(points, objects).demonstration] * count)
+    similarities_json(SimpleNamespace(demonstrations=demonstrations, labels=np.zeros(count, int)))  # type: ignore[arg-type]
+    assert lengths == {compared}
+
+
+def test_thinned_paths_are_as_similar_as_whole_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    turn, objects = np.linspace(0, 12, 2000), _drawn(9).objects
+    shapes = (np.sin(turn), np.sin(2 * turn), np.sin(3 * turn))
+    paths = [0.1 * np.column_stack([shape, np.cos(turn)]) for shape in shapes]
+    drawn = [replace(_drawn(9), hand=Stroke(path, turn)) for path in paths]
+    demonstrations = DemonstrationSet(one.demonstration for one in drawn)
+    model: Any = SimpleNamespace(demonstrations=demonstrations, labels=np.zeros(3, int))
+    whole = similarities_json(model)["maximum"]
+    monkeypatch.setattr(pictures, "_COMPARED", len(drawn) * len(objects) * 400)
+    np.testing.assert_allclose(similarities_json(model)["maximum"], whole, rtol=0.1)
+
+
+def test_a_long_demonstration_is_filmed_in_so_many_frames_that_it_takes_seconds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    films: list[list[Any]] = []
+
+    def film(shots: Any, objects: int) -> bytes:
+        films.append(list(shots))
+        return b""
+
+    monkeypatch.setattr(pictures, "_film", film)
+    for points in (300, LIMITS.points):
+        film_demonstration(_drawn(points), 0)
+    short, long = films
+    assert len(short) < len(long) < 30 * FRAME_RATE
+    assert short[-1].caption == "Demonstration 1: the demonstrator answers, the robot watches"
+    assert long[-1].caption == "Demonstration 1, 5 times as fast: the demonstrator answers, the robot watches"
+    assert len(long[-1].trail) == LIMITS.points

@@ -335,3 +335,10 @@ def test_what_is_quoted_is_not_longer_than_a_sentence(page: Any) -> None:
 def test_only_so_many_files_are_read_at_once(page: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("signimit_envs.studio.studio.LIMITS", Limits(waiting=0))
     assert page.ask("POST", "import?format=strokes.csv", content=b"").status_code == 429
+
+
+def test_who_asks_for_the_head_of_the_page_gets_it(page: Any) -> None:
+    for path in ("", "index.html", "icon.svg"):
+        whole, head = page.browser.get(path), page.browser.head(path)
+        assert (head.status_code, head.content) == (200, b"")
+        assert head.headers["content-length"] == str(len(whole.content))

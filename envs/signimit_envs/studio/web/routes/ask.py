@@ -30,6 +30,7 @@ from signimit_envs.studio.web.routes.dependencies import Json, Number, SessionId
 
 BAD_MESSAGE, TOO_MANY_MESSAGES, TOO_MANY_VIEWERS, TOO_BIG, NOT_TEXT = 4400, 4429, 4503, 1009, 1003
 _REASON = 120  # bytes, of 123 that a socket can be closed with
+_LEFT = (WebSocketDisconnect, OSError)  # what sending to a page raises that is gone
 _log = logging.getLogger(__name__)
 routes = APIRouter(tags=["ask"])
 
@@ -87,25 +88,26 @@ async def answer(studio: TheStudio, session_id: SessionId, number: Number) -> Js
 @routes.websocket("/ws")
 async def live(studio: TheStudio, socket: WebSocket) -> None:
     """Send frames and news to a page, and do what it says."""
-    await socket.accept()
-    if len(studio.viewers) >= LIMITS.viewers:
-        await socket.close(TOO_MANY_VIEWERS, f"at most {LIMITS.viewers} pages")
-        return
-    viewer = Viewer()
-    studio.viewers.add(viewer)
-    sending = asyncio.create_task(_send(socket, viewer))
-    try:
-        await _listen(socket, viewer, studio)
-    finally:
-        studio.viewers.remove(viewer)
-        sending.cancel()
-        with contextlib.suppress(asyncio.CancelledError):
-            await sending
+    with contextlib.suppress(*_LEFT):
+        await socket.accept()
+        if len(studio.viewers) >= LIMITS.viewers:
+            await socket.close(TOO_MANY_VIEWERS, f"at most {LIMITS.viewers} pages")
+            return
+        viewer = Viewer()
+        studio.viewers.add(viewer)
+        sending = asyncio.create_task(_send(socket, viewer))
+        try:
+            await _listen(socket, viewer, studio)
+        finally:
+            studio.viewers.remove(viewer)
+            sending.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await sending
 
 
 async def _send(socket: WebSocket, viewer: Viewer) -> None:
     """Send what there is until the page goes away."""
-    with contextlib.suppress(WebSocketDisconnect, RuntimeError, OSError):
+    with contextlib.suppress(RuntimeError, *_LEFT):
         while True:
             message = await viewer.take()
             if isinstance(message, bytes):
