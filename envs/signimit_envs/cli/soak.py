@@ -33,7 +33,7 @@ _SIZE = (32, 32)  # pixels of pictures
 _VECTOR = 4  # environments in a vector
 _KEPT_EPISODES = 3  # of a recorder, before they are replayed and forgotten
 _WARM_UP = 0.2  # share of the steps after which memory is looked at first
-_MOST_GROWTH = 24.0  # MiB; the allocator's own ups and downs stay below it
+_MOST_GROWTH = 32.0  # MiB; what a recorder keeps and the allocator's ups and downs stay below it
 _MISUSES = 0.02  # share of steps at which the adversary does something worse than an action
 _JOINT, _HAND = ENV_IDS
 

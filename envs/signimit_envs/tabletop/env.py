@@ -227,8 +227,11 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         """Return a frame, shape (height, width, 3), or bring the window up to date.
 
         Raises:
+            InvalidInputError: If there was no reset.
             RenderingError: If there is no OpenGL or no display.
         """
+        if self._request is None:
+            raise InvalidInputError("environment", "a reset before the first picture", "none")
         if self._window is not None:
             self._window.show(self.data)
             return None

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from signimit import InvalidInputError
 from signimit_envs.exceptions import RenderingError
-from signimit_envs.video.backend import INSTALL, choose_backend, use_backend
+from signimit_envs.video.backend import choose_backend, use_backend
 
 _FORKED = "this process was forked off one that had drawn with OpenGL, and would wait for a picture for ever"
 _SPAWN = 'Start processes with context="spawn", e.g. make_vec(..., vector_kwargs={"context": "spawn"}).'
@@ -131,7 +131,7 @@ class OffscreenView:
             renderer = mujoco.Renderer(self._model, self._height, self._width)
         except Exception as error:
             reason = f"OpenGL through {backend or 'the system'} failed ({_one_line(error)})"
-            raise RenderingError(reason, INSTALL) from error
+            raise RenderingError(reason, "python -m signimit doctor says what works here.") from error
         return _Owned(renderer, thread, os.getpid())
 
     def close(self) -> None:

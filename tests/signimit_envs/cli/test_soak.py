@@ -74,7 +74,7 @@ def test_what_diverges_grows_or_is_not_refused_is_noticed(monkeypatch: pytest.Mo
     with monkeypatch.context() as patch:
         sizes = iter((100.0, 200.0))
         patch.setattr(soak, "_memory", lambda: next(sizes))
-        assert soak.soak("a", soak.SCENARIOS["vector, Disabled"], 20, rng).problem == "grew by more than 24 MiB"
+        assert soak.soak("a", soak.SCENARIOS["vector, Disabled"], 20, rng).problem == "grew by more than 32 MiB"
     with monkeypatch.context() as patch:
         patch.setattr(soak, "_impossible_actions", lambda size: [np.zeros(size)] * 7)
         taken = soak.soak("a", soak.SCENARIOS["joint control with bad intent"], 9999, rng)

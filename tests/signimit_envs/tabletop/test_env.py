@@ -241,6 +241,8 @@ def test_a_step_before_the_first_reset_is_refused_in_one_sentence(env_class: typ
     sentence = r"^environment: expected a reset before the first step, found none\.$"
     with pytest.raises(signimit.InvalidInputError, match=sentence):
         env.step(env.action_space.sample())
+    with pytest.raises(signimit.InvalidInputError, match="a reset before the first picture, found none"):
+        env.render()
     with pytest.raises(signimit.UnknownNameError):
         env.reset(options={"wheels": 4})
     with pytest.raises(signimit.InvalidInputError, match=sentence):

@@ -210,7 +210,7 @@ def test_what_a_picture_shows() -> None:
 
 
 def test_pictures_without_opengl_are_refused_in_a_sentence_and_states_are_not(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("signimit_envs.video.rendering._first_working_backend", lambda _: ("", "no OpenGL works", ""))
+    monkeypatch.setattr("signimit_envs.video.backend._first_working_backend", lambda _: ("", "no OpenGL works", ""))
     gym.make(ENV_IDS[0]).reset(seed=0)
     with pytest.raises(RenderingError, match="no OpenGL works"):
         gym.make(ENV_IDS[0], obs_type="pixels", disable_env_checker=True).reset(seed=0)
