@@ -16,6 +16,7 @@ from signimit.strokes import KIND, VERSION
 
 _ROOTS = {GESTURE: "dollar", "ink": "inkml"}  # by the name of the document's first element
 _INK = re.compile(r"<(?:\w+:)?(?:Point\s[^<>]*\bX\s*=|trace\b[^<>]*>[^<]*\d)")  # a point of a gesture or trace
+_KIND = re.compile(r"(.+) version \d+")  # what `read_archive` says that it found
 _FIRST_ENTRY = b"signimit.npy"  # of our archives
 
 
@@ -54,11 +55,15 @@ def detect_format(path: str | os.PathLike[str]) -> str | None:
 
 
 def is_library(path: str | os.PathLike[str]) -> bool:
-    """Tell whether a file is one of our own stroke libraries, be it truncated or of a later version."""
+    """Tell whether a file is one of our own stroke libraries, be it broken or of a later version.
+
+    An archive of ours that is too broken to say what it is might be one.
+    """
     try:
         read_archive(path, KIND, VERSION)
     except FileFormatError as error:
         with open(path, "rb") as file:
             ours = _FIRST_ENTRY in file.read(64)
-        return ours and error.found.startswith((KIND, "something unreadable"))
+        other = _KIND.fullmatch(error.found)
+        return ours and (other is None or other[1] == KIND)
     return True

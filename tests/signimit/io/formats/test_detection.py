@@ -58,6 +58,11 @@ def test_libraries_are_told_from_other_archives_and_known_if_cut_off(tmp_path: P
     assert is_library(path)
     path.write_bytes(path.read_bytes()[:200])
     assert detect_format(path) == "library"
+    write_archive(path, "stroke library", 99, {})
+    assert detect_format(path) == "library"
+    no_text = np.array([0x110000], np.uint32).view("U1")  # beyond Unicode
+    write_archive(path, "stroke library", 1, {"labels": no_text})
+    assert detect_format(path) == "library"
     np.savez(path, xy=np.zeros(3))
     assert detect_format(path) is None
     write_archive(path, "demonstrations", 1, {})
