@@ -89,7 +89,12 @@ def _read_affine(element: Element, sources: tuple[str, ...], targets: tuple[str,
         rows, columns = matrix.shape
         targets = targets or ("X", "Y", "Z")[:rows]
         sources = sources or (targets if columns in (rows, rows + 1) else ())
-        if len(targets) != rows or columns - len(sources) not in (0, 1) or not (np.abs(matrix) <= LARGEST).all():
+        if (
+            len(targets) != rows
+            or not sources
+            or columns - len(sources) not in (0, 1)
+            or not (np.abs(matrix) <= LARGEST).all()
+        ):
             raise ValueError
     except ValueError:
         expected = f"a matrix with a row for each target and a column for each source of {', '.join(sources) or 'X, Y'}"

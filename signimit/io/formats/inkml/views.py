@@ -120,8 +120,9 @@ class Views:
             return content
         known = None if isinstance(content, TraceRange) and content.last is None else _length(content)
         first, last = (start[0] if start else 1), (end[0] if end else known)
-        if first < 1 or (last is not None and (last < first or last > (known or last))):
-            raise FileFormatError("traceView", f"from and to between 1 and {known or 'the last'}", f"{first} to {last}")
+        if first < 1 or (last is not None and last < first) or (known is not None and (last or 0) > known):
+            expected = "from and to" + (" of what it holds" if known is None else f" between 1 and {known}")
+            raise FileFormatError("traceView", expected, _index_text(start, end))
         if isinstance(content, TraceRange):
             if len(start) > 1 or len(end) > 1:
                 raise FileFormatError("traceView", "one number for a point of a trace", _index_text(start, end))

@@ -83,6 +83,8 @@ def test_the_clock_goes_through_unmapped(read: Read) -> None:
         (affine("1 0, 0"), "canvasTransform: affine: expected a matrix with a row for each target"),
         (affine("1 0, 0 x"), "canvasTransform: affine: expected a matrix"),
         (affine("1 0 0 0, 0 1 0 0"), "canvasTransform: affine: expected a matrix"),
+        (affine("1, 0"), "canvasTransform: affine: expected a matrix"),
+        (affine(""), "canvasTransform: affine: expected a matrix"),
         (affine("1e300 0, 0 1"), "canvasTransform: affine: expected a matrix"),
         (affine("nan 0, 0 1"), "canvasTransform: affine: expected a matrix"),
         (affine("1 0", '<bind source="OTx" target="X"/>'), "canvasTransform: expected channels X, Y, found OTx"),
