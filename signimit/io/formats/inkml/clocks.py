@@ -97,27 +97,35 @@ def read_clock(trace: Element, context: Context, contexts: Contexts) -> TraceClo
 def find_times(pieces: Sequence[TimedPiece]) -> DrawingTimes:
     """Put the pieces of a drawing on one clock, as far as the file says how."""
     ticks = [_filled(piece) for piece in pieces]
-    ticking = [piece for piece, values in zip(pieces, ticks, strict=True) if values is not None]
+    ticking = [(piece, values) for piece, values in zip(pieces, ticks, strict=True) if values is not None]
     if not ticking:
         return _times_from_offsets(pieces)
-    unit = ticking[0].clock.seconds or 1.0
-    shifts = _shifts([piece.clock for piece in ticking])
-    relative = all(piece.clock.relative for piece in ticking)
-    starts = [values[0] for values in ticks if values is not None]
-    if relative and any(piece.clock.offset for piece in ticking):
-        offsets = [piece.clock.offset or 0.0 for piece in ticking]
-        seconds = [start * (p.clock.seconds or 1.0) for p, start in zip(ticking, starts, strict=True)]
-        if any(abs(s - o) > _NEARLY for s, o in zip(seconds, offsets, strict=True) if o):
-            shifts = [shift + offset for shift, offset in zip(shifts, offsets, strict=True)]
-        own = False
-    else:
-        own = relative and len({piece.trace for piece in ticking}) > 1 and not any(starts) and not any(shifts)
-    waiting = iter(shifts)
+    shifts, own = _tick_shifts(ticking)
+    unit, waiting = ticking[0][0].clock.seconds or 1.0, iter(shifts)
     moved = [
         None if values is None else values * ((piece.clock.seconds or 1.0) / unit) + next(waiting) / unit
         for piece, values in zip(pieces, ticks, strict=True)
     ]
     return DrawingTimes(relative_seconds(moved, unit), "own" if own else "shared")
+
+
+def _tick_shifts(ticking: Sequence[tuple[TimedPiece, Stamps]]) -> tuple[list[float], bool]:
+    """Return how much later than the first each piece's clock begins, s, and whether that is unknown."""
+    clocks = [piece.clock for piece, _ in ticking]
+    starts, ends = ([(p.clock.seconds or 1.0) * float(ticks[i]) for p, ticks in ticking] for i in (0, -1))
+    shifts = _origin_shifts(clocks)
+    several = len({piece.trace for piece, _ in ticking}) > 1
+    relative = all(clock.relative for clock in clocks)
+    if not any(clock.offset for clock in clocks):
+        return shifts, several and relative and not any(starts) and not any(shifts)
+    counted = all(
+        abs(start - clock.offset) <= _NEARLY for start, clock in zip(starts, clocks, strict=True) if clock.offset
+    )
+    placed = [(start + shift, end + shift) for start, end, shift in zip(starts, ends, shifts, strict=True)]
+    anew = several and any(later < end for (_, end), (later, _) in pairwise(placed))
+    if not counted and (relative or anew):
+        shifts = [shift + (clock.offset or 0.0) for shift, clock in zip(shifts, clocks, strict=True)]
+    return shifts, False
 
 
 def _filled(piece: TimedPiece) -> Stamps | None:
@@ -139,7 +147,7 @@ def _filled(piece: TimedPiece) -> Stamps | None:
     return np.asarray(filled + pace * (before + after), dtype=np.float64)
 
 
-def _shifts(clocks: Sequence[TraceClock]) -> list[float]:
+def _origin_shifts(clocks: Sequence[TraceClock]) -> list[float]:
     """Return how much later than the first each clock's origin is, s; nothing if one is unknown."""
     origins = [clock.origin for clock in clocks if clock.origin is not None]
     if len(origins) < len(clocks):
@@ -152,7 +160,7 @@ def _times_from_offsets(pieces: Sequence[TimedPiece]) -> DrawingTimes:
     clocks = [piece.clock for piece in pieces]
     if all(clock.offset is None and clock.duration is None for clock in clocks):
         return DrawingTimes(None)
-    shifts = _shifts(clocks)
+    shifts = _origin_shifts(clocks)
     stamps = list[Stamps]()
     for piece, shift in zip(pieces, shifts, strict=True):
         pace = piece.clock.sample_time

@@ -14,6 +14,7 @@ from signimit.io.formats.inkml.trace_format import TraceFormat, read_number, rea
 from signimit.io.formats.xmlfile import local_name
 
 _REFERENCES = ("inkSource", "traceFormat", "canvas", "canvasTransform", "timestamp")
+_LEAST_RATE = 0.001  # Hz; a slower device declares nothing
 
 
 class ContextParts(NamedTuple):
@@ -184,5 +185,5 @@ def _sample_time(source: Element | None) -> float | None:
     for element in () if source is None else source:
         if local_name(element) == "sampleRate":
             rate = read_number(element.get("value"))
-            return 1 / rate if rate is not None and rate > 0 else None
+            return 1 / rate if rate is not None and rate > _LEAST_RATE else None
     return None

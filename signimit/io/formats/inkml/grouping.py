@@ -10,7 +10,7 @@ from xml.etree.ElementTree import Element
 from signimit.exceptions import FileFormatError
 from signimit.io.formats.inkml.context import ContextParts, Contexts
 from signimit.io.formats.inkml.document import InkDocument, read_annotation, read_label
-from signimit.io.formats.inkml.views import TraceRange, Views
+from signimit.io.formats.inkml.views import TraceRange, Views, refers
 from signimit.io.formats.xmlfile import local_name
 
 _NOT_DRAWN = ("definitions", "context", "inkSource", "traceFormat", "annotationXML")
@@ -90,40 +90,39 @@ def find_drawings(document: InkDocument, places: Mapping[Element, Place]) -> lis
 
     The traces and views that a group or view holds itself are one drawing, except that a view with a label of its own,
     or, where nothing around it has a label, of what it refers to, is another. Views at the root are a drawing each, and
-    traces outside groups are one. Ink that is viewed belongs to its views, not to where it is stored.
+    traces outside groups are one. Ink that is viewed belongs to its views and not to where it is stored, except where
+    that has a label and the views have others.
     """
     views = Views(document)
-    leaves = {element: place for element, place in places.items() if place.drawn and is_leaf(element)}
+    leaves = {
+        element: place
+        for element, place in places.items()
+        if place.drawn and (local_name(element) == "trace" or refers(element))
+    }
     held = {leaf: views.ranges(leaf) for leaf in leaves}
-    viewed: set[Element] = set()
+    viewed: dict[Element, bool] = {}  # whether under the label that it has where it is stored
     for leaf, ranges in held.items():
-        if local_name(leaf) == "traceView" and not isinstance(ranges, FileFormatError):
-            viewed |= {part.trace for part in ranges}
+        if refers(leaf) and not isinstance(ranges, FileFormatError):
+            place = leaves[leaf]
+            leaves[leaf] = _borrow(place, leaf, views, places)
+            for part in ranges:
+                viewed[part.trace] = viewed.get(part.trace, False) or place.label is None
     drawings: dict[tuple[Element, Element | None], Drawing] = {}
     for leaf, place in leaves.items():
-        if leaf in viewed:
+        if leaf in viewed and (viewed[leaf] or place.label is None):
             continue
-        around, own = places.get(place.container, place), None
-        if local_name(leaf) == "traceView":
-            if not isinstance(held[leaf], FileFormatError):
-                place = _borrow(place, leaf, views, places)
-            own = leaf if place.container is document.root else None
-        if place.labelled is not around.labelled:
+        own = leaf if refers(leaf) and place.container is document.root else None
+        if place.labelled is not places.get(place.container, place).labelled:
             own = place.labelled
         drawing = drawings.setdefault((place.container, own), Drawing(place.label, place.writer))
         drawing.parts.append(held[leaf])
     return list(drawings.values())
 
 
-def is_leaf(element: Element) -> bool:
-    """Whether an element is a trace, or a view that refers to something."""
-    return local_name(element) == "trace" or (local_name(element) == "traceView" and "traceDataRef" in element.attrib)
-
-
 def _borrow(place: Place, view: Element, views: Views, places: Mapping[Element, Place]) -> Place:
     """Return the place of a view with the label and the writer of what it refers to, where it has none itself."""
     for _ in range(_MOST_VIEWS_OF_VIEWS):
-        if not is_leaf(view) or local_name(view) == "trace":
+        if not refers(view):
             break
         view = views.target(view)
         stored = places[view]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError
 from signimit.io.formats.inkml.trace_format import Channel, TraceFormat
+from signimit.validation import LARGEST
 
 _ORDERS = {"!": 0, "'": 1, '"': 2}
 _PLAIN = re.compile(r"[\d\s.,+\-eE]*", re.ASCII)  # nothing but explicit numbers
@@ -42,8 +43,17 @@ def read_trace_data(text: str, layout: TraceFormat) -> TraceData:
     """Decode the text of a trace.
 
     Raises:
-        FileFormatError: Names the point, counted from 0, and the values that were expected there.
+        FileFormatError: Names the point, counted from 0, and what was expected there.
     """
+    data = _decoded(text, layout)
+    large = np.argwhere(np.abs(data.values) > LARGEST)  # a comparison with NaN is false
+    if len(large):
+        value = data.values[tuple(large[0])]
+        raise FileFormatError(f"point {large[0][0]}", f"numbers up to {LARGEST:g}", f"{value:g}")
+    return data
+
+
+def _decoded(text: str, layout: TraceFormat) -> TraceData:
     points = [point for point in text.split(",") if point and not point.isspace()]
     stray = text.count(",") + 1 - len(points) if points else text.count(",")
     if _PLAIN.fullmatch(text):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,6 +11,7 @@ from xml.etree.ElementTree import Element
 
 from signimit.exceptions import FileFormatError
 from signimit.io.formats.xmlfile import local_name
+from signimit.validation import LARGEST
 
 TIME_UNITS: Mapping[str, float] = MappingProxyType(
     {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "ns": 1e-9, "sec": 1.0, "msec": 1e-3}
@@ -19,6 +19,7 @@ TIME_UNITS: Mapping[str, float] = MappingProxyType(
 LENGTH_UNITS: Mapping[str, float] = MappingProxyType(
     {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "himetric": 1e-5, "in": 0.0254, "pt": 0.0254 / 72, "pc": 0.0254 / 6}
 )  # metres; 1 himetric of Microsoft's ink is 0.01 mm
+_LEAST_RESOLUTION = 1e-30  # smaller ones, and none at all, declare nothing
 MOST_CHANNELS = 100  # of a trace format; the standard has names for 26
 
 
@@ -181,15 +182,15 @@ def _resolutions(source: Element) -> dict[str, tuple[float, str]]:
     for element in source.iter():
         if local_name(element) == "channelProperty" and element.get("name") == "resolution":
             value = read_number(element.get("value"))
-            if value is not None and value > 0:
+            if value is not None and value > _LEAST_RESOLUTION:
                 found[element.get("channel", "").strip()] = (value, (element.get("units") or "").replace(" ", ""))
     return found
 
 
 def read_number(text: str | None) -> float | None:
-    """Return a finite number, or none if the text is not one."""
+    """Return a number of sane size, or none if the text is not one."""
     try:
         value = float(text or "")
     except ValueError:
         return None
-    return value if math.isfinite(value) else None
+    return value if abs(value) <= LARGEST else None

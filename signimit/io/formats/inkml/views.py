@@ -96,7 +96,7 @@ class Views:
     def _parts(self, node: Element) -> list[Element]:
         """Return the elements that a group or view consists of: its children, or what it refers to."""
         inside = [child for child in node if local_name(child) in _VIEWED]
-        if local_name(node) != "traceView" or node.get("traceDataRef") is None:
+        if not refers(node):
             return inside
         if inside:
             raise FileFormatError("traceView", "either a traceDataRef or views inside", "both")
@@ -110,7 +110,7 @@ class Views:
             if isinstance(part, FileFormatError):
                 return part
             contents.append(part)
-        if node.get("traceDataRef") is None:
+        if not refers(node):
             return tuple(contents)
         return self._restricted(contents[0], _read_index(node, "from"), _read_index(node, "to"))
 
@@ -139,6 +139,11 @@ class Views:
         self._budget -= points
         if self._budget < 0:
             raise FileFormatError("traceView", f"views of at most {_MOST_VIEWS} times the ink", "more")
+
+
+def refers(element: Element) -> bool:
+    """Whether an element is a view that refers to something."""
+    return local_name(element) == "traceView" and "traceDataRef" in element.attrib
 
 
 def _length(content: Content) -> int:

@@ -48,6 +48,13 @@ def test_an_offset_says_when_a_trace_began(read: Read) -> None:
     assert_allclose(read(timed('units="s"') + in_seconds)[0].times, [0, 0.02, 0.04, 0.5, 0.52, 0.54])
 
 
+def test_an_offset_says_when_a_trace_began_whose_clock_begins_anew_whatever_it_counts_from(read: Read) -> None:
+    stamp = '<definitions><timestamp xml:id="ts" time="5"/></definitions>'
+    body = two((0, 20, 40), (0, 20, 40), 'timeOffset="0"', 'timeOffset="500"')
+    library = read(stamp + timed('units="ms" respectTo="#ts"') + body)
+    assert_allclose(library[0].times, [0, 0.02, 0.04, 0.5, 0.52, 0.54])
+
+
 def test_an_offset_is_not_added_to_a_clock_that_has_it_already(read: Read) -> None:
     body = two((100, 120, 140), (600, 620, 640), 'timeOffset="100"', 'timeOffset="600"')
     assert_allclose(read(timed() + body)[0].times, [0, 0.02, 0.04, 0.5, 0.52, 0.54])

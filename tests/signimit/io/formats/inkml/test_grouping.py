@@ -75,11 +75,11 @@ def drawings(library: StrokeLibrary) -> list[tuple[str, list[int]]]:
             "<traceView><traceView traceDataRef='#h'/><traceView traceDataRef='#g'/></traceView>",
             [("b", [6]), ("a", [5])],
         ),
-        # but its own first
+        # but its own first, and then what has another label where it is stored is there whole
         (
             "<traceGroup xml:id='g'>" + label("word") + STORED + "</traceGroup>"
             + views(label("x"), view(0), view(1)) + views(label("y"), view(2), view(3)),
-            [("x", [0, 1]), ("y", [2, 3])],
+            [("word", [0, 1, 2, 3]), ("x", [0, 1]), ("y", [2, 3])],
         ),
     ],
 )  # fmt: skip
@@ -124,6 +124,13 @@ def test_traces_within_what_the_standard_does_not_know_are_read(read: Read) -> N
     remark = f"<annotationXML>{STORED}</annotationXML>"
     assert drawings(read(f"<page>{trace(5)}</page>{remark}")) == [("house", [5])]
     assert drawings(read(remark + view(1))) == [("house", [1])]
+
+
+def test_a_group_refers_to_nothing(read: Read) -> None:
+    assert drawings(read(STORED + '<traceGroup traceDataRef="#t0"/>' + group(trace(5)))) == [
+        ("house", [0, 1, 2, 3]),
+        ("house", [5]),
+    ]
 
 
 def test_equal_ids_of_traces_that_nothing_refers_to_do_no_harm(read: Read) -> None:

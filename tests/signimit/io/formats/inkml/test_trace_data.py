@@ -106,6 +106,12 @@ def test_what_is_no_point_is_named(text: str, found: str) -> None:
     assert str(caught.value) == f"point {number}: expected a value for each of X, Y, found {found}."
 
 
+@pytest.mark.parametrize("text", ["1 2, 1e101 4", "1 2, 1e400 4", "1 2, '1e308 4, 1e308 5", "1 2, -1e200 ?"])
+def test_numbers_beyond_reason_are_named(text: str) -> None:
+    with pytest.raises(FileFormatError, match=r"point [12]: expected numbers up to 1e\+100, found -?(inf|1e\+)"):
+        read_trace_data(text, XY)
+
+
 @pytest.mark.parametrize(
     ("text", "commas"),
     [("1 2,3 4,", 1), (",1 2,3 4", 1), ("1 2,,3 4, \n,", 3), ("1 2,3 4", 0), (",", 1), ("", 0)],
