@@ -2,7 +2,7 @@
 
 MuJoCo loads the OpenGL backend that MUJOCO_GL names as it is imported, and cannot be imported where that fails. Physics
 needs no OpenGL: then it is imported as if nothing was named, and the variable is judged at the first picture
-(`signimit_envs.video.rendering.choose_backend`).
+(`signimit_envs.video.backend.choose_backend`).
 """
 
 from __future__ import annotations

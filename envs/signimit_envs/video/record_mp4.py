@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import glob
 import multiprocessing
 import os
+import re
 from collections.abc import Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -58,11 +58,11 @@ class RecordMp4(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             raise InvalidInputError("every", "at least 1", repr(every))
         self._start, self._every = Path(folder).resolve() / prefix, every
         self._start.parent.mkdir(parents=True, exist_ok=True)
-        if self._start not in self._next_numbers and any(self._start.parent.glob(f"{glob.escape(prefix)}-*.mp4")):
-            gym.logger.warn(
-                f"The films {self._start}-*.mp4 of an earlier run will be replaced; name another folder or "
-                "prefix to keep them."
-            )
+        name = re.compile(re.escape(prefix) + r"-\d{4,}\.mp4")
+        first = self._start not in self._next_numbers and not multiprocessing.parent_process()
+        if first and any(name.fullmatch(file.name) for file in self._start.parent.iterdir()):
+            keep = "name another folder or prefix to keep them"
+            gym.logger.warn(f"The films {self._start}-*.mp4 of an earlier run will be replaced; {keep}.")
         self._next_numbers.setdefault(self._start, 0)
         self._episodes, self._over = 0, False
         self._file = ExitStack()
