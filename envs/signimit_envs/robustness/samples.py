@@ -88,7 +88,7 @@ _INKML = """<?xml version="1.0"?>
     <channel name="T" type="integer" units="ms"/></traceFormat></inkSource></context></definitions>
   <traceGroup><annotation type="label">a</annotation><annotation type="writer">ann</annotation>
     <trace contextRef="#c" id="t1">0 0 0, 3 4 10, 6 4 20</trace>
-    <trace contextRef="#c" id="t2">9 4 40, 10 5 50, 12 9 60</trace></traceGroup>
+    <trace contextRef="#c" id="t2">9 4 40, '1 '1 '10, "1 "1 "0, 12 9 80</trace></traceGroup>
   <trace contextRef="#c">1 1 100, 2 2 110</trace>
 </ink>
 """
