@@ -103,7 +103,7 @@ purpose_of() {
     case "$1 ${2-}" in
         'studio '* | 'timing studio' | 'fuzz studio') printf 'studio' ;;
         'study '* | 'benchmark '* | 'timing growth' | 'results make') printf 'study' ;;
-        'convert '* | 'replay '*) printf 'formats' ;;
+        'convert '* | 'replay '* | 'fuzz '*) printf 'formats' ;;
         *) printf 'run' ;;
     esac
 }

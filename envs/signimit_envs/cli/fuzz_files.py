@@ -1,4 +1,4 @@
-"""Make faults on purpose: mutated files for every loader, killed writers, full disks."""
+"""Mutated files for every loader, killed writers, and writers without room or rights."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError, UnknownNameError
-from signimit_envs.robustness.fuzzing import Fault, fuzz_loaders
+from signimit_envs.robustness.fuzzing import Fault, fuzz_loaders, missing_package
 from signimit_envs.robustness.killing import WRITERS, kill_writer
 from signimit_envs.robustness.loaders import LOADERS, find_unknown_loaders
 from signimit_envs.robustness.no_room import try_without_room
@@ -43,6 +43,10 @@ def fuzz_files(
         raise UnknownNameError("loader", " ".join(loader), LOADERS)
     if files < 1 or workers < 1:
         raise InvalidInputError("files, workers", "at least 1 of each", f"{files}, {workers}")
+    for name, lack in [(name, missing_package(name)) for name in chosen]:
+        if lack is not None:
+            sys.stderr.write(f"note: {name} is left out. {lack}\n")
+            chosen.remove(name)
     few = min(files, 10_000) if slow_files is None else slow_files
     counts = {name: few if LOADERS[name].slow else files for name in chosen}
     read, refused, faults = Counter[str](), Counter[str](), list[Fault]()

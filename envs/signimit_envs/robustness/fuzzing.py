@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from signimit.exceptions import SignimitError
+from signimit.exceptions import MissingDependencyError, SignimitError
 from signimit.io.formats.import_report import StrokeImportWarning
 from signimit_envs.robustness.archives import mutate_archive
 from signimit_envs.robustness.datasets import mutate_hdf5, mutate_parquet
@@ -155,7 +155,7 @@ def _run_task(task: Task, out: Connection, keep: Path | None) -> None:
         os.chdir(folder)  # MuJoCo writes its log into the working folder
         for number in task.numbers:
             out.send((number, Tally(read, refused, tuple(faults))))
-            faulthandler.dump_traceback_later(2 * LONGEST, exit=True)  # where no signal gets through
+            faulthandler.dump_traceback_later(2 * LONGEST, exit=True, file=2)  # where no signal gets through
             error = try_file(task.loader, number, task.seed, Path(folder))
             if error is None:
                 read += 1
@@ -243,6 +243,18 @@ def samples_of(name: str) -> dict[str, Sample]:
             parts = {"" if place.is_file() else str(p.relative_to(place)): p.read_bytes() for p in inside}
             found[place.name] = parts
         return found
+
+
+def missing_package(name: str) -> str | None:
+    """Say which package a loader needs that is not installed; None if it has all."""
+    with tempfile.TemporaryDirectory(dir=memory_folder()) as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore", StrokeImportWarning)
+        try:
+            for place in LOADERS[name].write(Path(folder)):
+                LOADERS[name].read(place)
+        except MissingDependencyError as error:
+            return str(error)
+    return None
 
 
 def keep_input(name: str, number: int, seed: int, keep: Path) -> Path:
