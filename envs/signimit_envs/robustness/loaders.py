@@ -269,7 +269,7 @@ READ_THROUGH = {
     "signimit.io.formats.textfile.read_any_text": "signimit.io.formats.unipen.drawings.read_unipen",
     "signimit.io.formats.textfile.read_bytes": "signimit.io.formats.dollar.read_dollar",
     "signimit.io.formats.textfile.read_text": "signimit.io.formats.unipen.drawings.read_unipen",
-    "signimit.io.formats.textfile.read_xml": "signimit.io.formats.inkml.reading.read_inkml",
+    "signimit.io.formats.xmlfile.read_xml": "signimit.io.formats.inkml.reading.read_inkml",
     "signimit.learners.model_files.read_model": "signimit.learning.ImitationModel.load",
     "signimit.policies.storage.read_policy_arrays": "signimit.policies.load_policy",
     "signimit.benchmark.results.read_summaries": "signimit.benchmark.results.ResultFile.read",
