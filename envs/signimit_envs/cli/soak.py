@@ -122,7 +122,7 @@ def soak(name: str, scenario: Scenario, steps: int, rng: np.random.Generator) ->
 def _memory() -> float:
     gc.collect()
     try:
-        return resident_memory(os.getpid())
+        return resident_memory(os.getpid()).now
     except OSError:
         return np.nan
 

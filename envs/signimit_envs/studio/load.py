@@ -224,11 +224,11 @@ def measure_growth(address: str, process: int, minutes: float) -> Growth:
     with closing(FrameWatcher(address)), closing(FrameWatcher(address)):
         while (elapsed := time.perf_counter() - begin) < 60 * minutes:
             if not before and elapsed > 6 * minutes:
-                before = resident_memory(process)
+                before = resident_memory(process).now
             _use_session(page, count)
             count += 1
         real_time = _real_time(start, page.ask("GET", "health"))
-        return Growth(minutes, page.requests, before, resident_memory(process), real_time)
+        return Growth(minutes, page.requests, before, resident_memory(process).now, real_time)
 
 
 def first_motion(page: PageClient, watcher: FrameWatcher, session: Json, attempt: int) -> float:
@@ -250,16 +250,24 @@ def _real_time(start: Json, end: Json) -> float:
     return float((end["time"] - start["time"]) / (end["clock"] - start["clock"]))
 
 
-def resident_memory(process: int, highest: bool = False) -> float:
-    """Return the resident memory of a process, now or at its highest, MiB.
+class Memory(NamedTuple):
+    """Resident memory of a process, MiB, now and at its highest."""
+
+    now: float
+    highest: float
+
+
+def resident_memory(process: int) -> Memory:
+    """Look how large a process is.
 
     Raises:
         OSError: If the system does not tell.
     """
-    for line in Path(f"/proc/{process}/status").read_text().splitlines():
-        if line.startswith("VmHWM:" if highest else "VmRSS:"):
-            return int(line.split()[1]) / 1024
-    raise OSError("the system does not tell how large a process is")
+    told = dict(line.split(":", 1) for line in Path(f"/proc/{process}/status").read_text().splitlines())
+    try:
+        return Memory(*(int(told[name].split()[0]) / 1024 for name in ("VmRSS", "VmHWM")))
+    except KeyError:
+        raise OSError("the system does not tell how large a process is") from None
 
 
 def _frame_rates(page: PageClient, watchers: list[FrameWatcher], session: Json, seconds: float) -> list[float]:

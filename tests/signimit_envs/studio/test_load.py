@@ -25,5 +25,7 @@ def test_every_wait_and_every_frame_is_counted(address: str, monkeypatch: pytest
 def test_the_memory_of_a_process_is_told_in_mebibytes() -> None:
     before = resident_memory(os.getpid())
     block = bytearray(os.urandom(64 * 2**20))
-    assert 40 < resident_memory(os.getpid()) - before < 100
+    after = resident_memory(os.getpid())
+    assert 40 < after.now - before.now < 100
     del block
+    assert resident_memory(os.getpid()).highest >= after.highest >= after.now - 1

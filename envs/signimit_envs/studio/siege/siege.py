@@ -178,7 +178,7 @@ class _Siege:
         self._rng.shuffle(numbers)
         warm = round(_WARM * len(numbers))
         await self._attack_all(iter(numbers[:warm]))
-        before, _ = self._studio.memory()
+        before = self._studio.memory().now
         await self._crowd()
         await self._attack_all(iter(numbers[warm:]))
         await self._crowd()

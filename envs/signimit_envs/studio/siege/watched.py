@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from signimit.exceptions import InvalidInputError
-from signimit_envs.studio.load import resident_memory
+from signimit_envs.studio.load import Memory, resident_memory
 
 SECRET = "this file is not for the studio"
 _TROUBLE = re.compile(r"^(ERROR|CRITICAL|Task exception|Fatal|Traceback|[A-Za-z_.]+(Error|Exception|Disconnect)\b)")
@@ -40,13 +40,13 @@ class WatchedStudio(NamedTuple):
         """Return what is kept of a session."""
         return (self.room / "studio" / session / "journal.jsonl").read_bytes()
 
-    def memory(self) -> tuple[float, float]:
-        """Return resident memory now and at its highest, MiB.
+    def memory(self) -> Memory:
+        """Look how large it is.
 
         Raises:
             OSError: If the system does not tell.
         """
-        return resident_memory(self.process), resident_memory(self.process, highest=True)
+        return resident_memory(self.process)
 
     def troubles(self) -> list[str]:
         """Return what the log has of failures: each kind once, with its number, and all about the first."""
