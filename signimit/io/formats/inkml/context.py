@@ -14,6 +14,7 @@ from signimit.io.formats.inkml.trace_format import TraceFormat, read_number, rea
 from signimit.io.formats.xmlfile import local_name
 
 _REFERENCES = ("inkSource", "traceFormat", "canvas", "canvasTransform", "timestamp")
+_CONTEXTS = ("context", "inkSource", "traceFormat")  # the latter two, of no standard, as contexts that say only this
 _LEAST_RATE = 0.001  # Hz; a slower device declares nothing
 
 
@@ -115,7 +116,7 @@ class Contexts:
     def _read(self, reference: str | None, stream: ContextParts) -> Context:
         parts = ContextParts() if reference else stream
         if reference and reference.strip() != "#DefaultContext":
-            parts = self.extended(parts, self._document.find(reference, ("context",), "contextRef"))
+            parts = self.extended(parts, self._document.find(reference, _CONTEXTS, "contextRef"))
         if parts.broken is not None:
             raise parts.broken
         if parts.source is None and parts.layout is None:
@@ -149,7 +150,7 @@ class Contexts:
     def _only_format(self) -> ContextParts:
         """The format of a document that has only one, wherever it stands."""
         of_canvases = {child for canvas in self._document.elements("canvas") for child in canvas}
-        for kind in ("context", "inkSource", "traceFormat"):
+        for kind in _CONTEXTS:
             found = {}
             for element in self._document.elements(kind):
                 if element in of_canvases:

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 from signimit.exceptions import FileFormatError
 from signimit.io.formats.xmlfile import local_name
 
-_ID = "{http://www.w3.org/XML/1998/namespace}id"
+_XML = "{http://www.w3.org/XML/1998/namespace}"
 _LABEL_TYPES = ("label", "truth", "transcription")
 _LONGEST_CHAIN = 100  # references that lead to references
 
@@ -79,7 +79,7 @@ class InkDocument:
 
 def identity(element: Element) -> str | None:
     """Return the id of an element."""
-    return (element.get(_ID) or element.get("id") or "").strip() or None
+    return (element.get(f"{_XML}id") or element.get("id") or element.get(f"{_XML}ID") or "").strip() or None
 
 
 def read_label(element: Element) -> str | None:

@@ -120,7 +120,7 @@ class _InkReader:
                 raise FileFormatError(f"{place}: {held.where}", held.expected, held.found)
             parts += held
         pieces: list[_Piece] = []
-        for i, part in enumerate(self._in_order(parts)):
+        for i, part in enumerate(self._in_order(parts, place)):
             kind = part.trace.get("type", "penDown").strip()
             if kind != "penUp":
                 try:
@@ -143,15 +143,19 @@ class _InkReader:
             sample_time=sample_time,
         )
 
-    def _in_order(self, parts: Sequence[TraceRange]) -> list[TraceRange]:
-        """Put traces that continue others behind them; streams of two pens or hands may alternate."""
+    def _in_order(self, parts: Sequence[TraceRange], place: str) -> list[TraceRange]:
+        """Put traces that continue others behind them; streams of two pens or hands may alternate.
+
+        Raises:
+            FileFormatError: If there is no such other trace.
+        """
         chains: list[list[TraceRange]] = []
         chain_of: dict[Element, list[TraceRange]] = {}
         for part in parts:
             chain: list[TraceRange] | None = None
             reference = part.trace.get("priorRef")
             if reference and part.trace.get("continuation") in ("middle", "end"):
-                chain = chain_of.get(self.document.find(reference, ("trace",), "priorRef"))
+                chain = chain_of.get(self.document.find(reference, ("trace",), f"{place}: priorRef"))
             if chain is None:
                 chain = []
                 chains.append(chain)

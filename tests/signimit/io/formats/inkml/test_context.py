@@ -23,6 +23,14 @@ def test_each_trace_has_the_format_of_its_context(read: Read) -> None:
     assert_array_equal(library[0].points[[0, 1, -2, -1]], [(0, 0), (9, -1), (20, -1), (29, 0)])
 
 
+def test_a_reference_to_a_bare_format_is_understood(read: Read) -> None:
+    formats = XY.replace("<traceFormat", '<traceFormat xml:id="a"') + YX.replace(
+        "<traceFormat", '<traceFormat xml:ID="b"'
+    )
+    body = f'<definitions>{formats}</definitions><trace contextRef="#b">1 2, 3 4</trace>'
+    assert_array_equal(read(body)[0].points, [(2, -1), (4, -3)])
+
+
 def test_a_group_s_context_holds_for_its_traces(read: Read) -> None:
     body = '<traceGroup contextRef="#b"><trace>1 20, 0 29</trace><trace contextRef="#a">30 0, 39 0</trace></traceGroup>'
     assert_array_equal(read(two_formats(body))[0].points[[0, 1, -2, -1]], [(20, -1), (29, 0), (30, 0), (39, 0)])
@@ -98,7 +106,10 @@ def test_contexts_of_other_namespaces_are_none_of_traces(read: Read) -> None:
 @pytest.mark.parametrize(
     ("context", "match"),
     [
-        ("", r"drawing 1: trace 0: contextRef: expected a context of this file, found '#c'"),
+        (
+            "",
+            r"drawing 1: trace 0: contextRef: expected a context or inkSource or traceFormat of this file, found '#c'",
+        ),
         ('<context xml:id="c" contextRef="#c"/>', r"contextRef: expected a context that does not refer to itself"),
         ('<context xml:id="c" inkSourceRef="#no"/>', r"inkSourceRef: expected a inkSource of this file, found '#no'"),
         (f'<context xml:id="c">{XY}</context>' * 2, r"contextRef: expected one context with the id 'c', found 2"),

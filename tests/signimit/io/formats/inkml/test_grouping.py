@@ -166,3 +166,10 @@ def test_traces_that_continue_others_follow_them(read: Read) -> None:
     points = read(body)[0].points
     assert_array_equal(points[:6], [(0, 0), (10, 0), (20, 0), (30, 0), (40, 0), (50, 0)])
     assert_array_equal(points[-1], (1, -9))
+
+
+def test_a_trace_that_continues_nothing_is_named(read: Read) -> None:
+    with pytest.raises(
+        FileFormatError, match=r"house.inkml: drawing 0: priorRef: expected a trace of this file, found"
+    ):
+        read('<trace continuation="end" priorRef="#no">0 0, 1 0</trace>')
