@@ -144,18 +144,17 @@ class _InkReader:
         )
 
     def _in_order(self, parts: Sequence[TraceRange], place: str) -> list[TraceRange]:
-        """Put traces that continue others behind them; streams of two pens or hands may alternate.
-
-        Raises:
-            FileFormatError: If there is no such other trace.
-        """
+        """Put traces that continue others behind them; streams of two pens or hands may alternate."""
         chains: list[list[TraceRange]] = []
         chain_of: dict[Element, list[TraceRange]] = {}
         for part in parts:
             chain: list[TraceRange] | None = None
             reference = part.trace.get("priorRef")
             if reference and part.trace.get("continuation") in ("middle", "end"):
-                chain = chain_of.get(self.document.find(reference, ("trace",), f"{place}: priorRef"))
+                try:
+                    chain = chain_of.get(self.document.find(reference, ("trace",), "priorRef"))
+                except FileFormatError:
+                    self.findings.append(Finding(place, "traces that continue none of the file: left where they stand"))
             if chain is None:
                 chain = []
                 chains.append(chain)

@@ -6,6 +6,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from signimit import FileFormatError, StrokeLibrary
+from signimit.io.formats import StrokeImportWarning
 
 Read = Callable[..., StrokeLibrary]
 STORED = "".join(f'<trace xml:id="t{i}">{i}0.25 0, {i}1 0</trace>' for i in range(4))
@@ -168,8 +169,7 @@ def test_traces_that_continue_others_follow_them(read: Read) -> None:
     assert_array_equal(points[-1], (1, -9))
 
 
-def test_a_trace_that_continues_nothing_is_named(read: Read) -> None:
-    with pytest.raises(
-        FileFormatError, match=r"house.inkml: drawing 0: priorRef: expected a trace of this file, found"
-    ):
-        read('<trace continuation="end" priorRef="#no">0 0, 1 0</trace>')
+def test_a_trace_that_continues_nothing_is_left_where_it_stands_and_told(read: Read) -> None:
+    with pytest.warns(StrokeImportWarning, match="traces that continue none of the file: left where they stand"):
+        library = read('<trace>0 0, 1 0</trace><trace continuation="end" priorRef="#no">2 0, 3 0</trace>')
+    assert_array_equal(library[0].points[:, 0], [0, 1, 2, 3])
