@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.io.safe_files import replaced_path
 from signimit.learners import DEFAULT_METHOD
 from signimit.learning import learn
 from signimit.policies import DEFAULT_POLICY
@@ -51,6 +52,7 @@ def main(
     if why is not None:
         from signimit.plots.explanation import draw_explanation
 
-        draw_explanation(model).savefig(why, dpi=110)
+        with replaced_path(why, why.suffix) as beside:
+            draw_explanation(model).savefig(beside, dpi=110)
     model.save(out)
     print(f"The model is in {out}.")

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.benchmark.statistics import wilson_interval
 from signimit.benchmark.tables import markdown_table
-from signimit.io.safe_files import Record
+from signimit.io.safe_files import Record, replaced_path
 
 OURS = "joint"  # the method that stands first in tables
 BINS = 10  # of confidences, of equal width
@@ -150,8 +150,8 @@ def demonstrations_needed(rows: Sequence[LessonRow], share: float) -> list[tuple
 
 
 def write_csv(path: Path, header: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    """Write a table with a header."""
-    with path.open("w", newline="", encoding="utf-8") as file:
+    """Write a table with a header, whole or not at all."""
+    with replaced_path(path) as beside, beside.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file)
         writer.writerow(header)
         writer.writerows(rows)

@@ -12,7 +12,7 @@ from typing import Any, BinaryIO, NamedTuple
 
 from signimit.exceptions import FileFormatError, InvalidInputError, SignimitError
 from signimit.io.safe_files import append_record, read_records
-from signimit.validation import finite_array
+from signimit.validation import LARGEST, finite_array
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.store.events import Created, Event, event_from_json, event_to_json
 from signimit_envs.studio.store.history import History, replay_events
@@ -124,8 +124,8 @@ class SessionStore:
                 steps = len(finite_array(part["path"], "path", (None, 2)))
                 finite_array(part["objects"], "objects", (steps, None, 2))
                 first, rate = part["first"], finite_array(part["rate"], "rate", ())
-                if type(first) is not int or first < 0 or rate <= 0:
-                    raise InvalidInputError("first, rate", "0 or more, and above 0", f"{first!r:.40}, {rate:g}")
+                if type(first) is not int or not 0 <= first < LARGEST or not 1 <= rate < LARGEST:
+                    raise InvalidInputError("first, rate", "0 or more, and 1 or more", f"{first!r:.40}, {rate:g}")
             except KeyError as error:
                 raise FileFormatError(f"{track}: line {number}", f"an entry {error}", "none") from None
             except InvalidInputError as error:

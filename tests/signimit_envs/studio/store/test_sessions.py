@@ -104,6 +104,8 @@ def test_tracks_are_kept_beside_and_apart(store: SessionStore) -> None:
         ({"path": [[0, 0]], "objects": [], "first": 0, "rate": 50}, "objects: expected numbers of shape (1, n, 2)"),
         ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 0.5, "rate": 50}, "first, rate: expected 0 or more"),
         ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 0, "rate": 0}, "first, rate: expected 0 or more"),
+        ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 9, "rate": 1e-300}, "first, rate: expected 0 or more"),
+        ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 10**400, "rate": 50}, "first, rate: expected 0 or more"),
     ],
 )
 def test_a_line_that_is_no_part_of_a_track_is_named(store: SessionStore, part: dict[str, Any], sentence: str) -> None:
