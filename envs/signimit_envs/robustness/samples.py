@@ -46,39 +46,29 @@ from signimit_envs.studio.store.sessions import SessionStore
 SESSION = "20260102-030405-0123abcd"  # a studio's name for one
 ENTRY = "chance"  # of the benchmark, for results
 MINARI_ROOT = "MINARI_DATASETS_PATH"
-_UNIPEN = """.INCLUDE        dene.doc
-
-.LEXICON "0" "1" "2"
-.HIERARCHY      DIGIT
-
-.SEGMENT DIGIT   30 ? "6"
+_UNIPEN = """.HIERARCHY DIGIT
+.SEGMENT DIGIT 30 ? "6"
 .COMMENT 6 13   38
 .PEN_DOWN
  238  326
  239  328
- 240  329
 .PEN_UP
-.DT 100
-
-.SEGMENT DIGIT  112-113 ? "7"
+.SEGMENT DIGIT 112-113 ? "7"
 .COMMENT 7 13  187
 .PEN_DOWN
  0  0
  10 0
 .PEN_UP
-.DT 100
 .PEN_DOWN
  10 20
  20 20
 .PEN_UP
-.DT 100
 """
 _DOLLAR = """<?xml version="1.0" encoding="utf-8" standalone="yes"?>
-<Gesture Name="circle03" Subject="2" Speed="slow" Number="3" NumPts="4" Millseconds="15">
+<Gesture Name="circle03" Subject="2" Speed="slow" Number="3" NumPts="3" Millseconds="15">
   <Point X="102" Y="162" T="10128229" />
   <Point X="98" Y="161" T="10128234" />
   <Point X="96" Y="160" T="10128244" />
-  <Point X="96" Y="150" T="10128254" />
 </Gesture>
 """
 _INKML = """<?xml version="1.0"?>

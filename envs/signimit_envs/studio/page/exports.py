@@ -190,7 +190,7 @@ def _refuse_bombs(path: Path) -> None:
     try:
         with zipfile.ZipFile(path) as archive:
             size = sum(info.file_size for info in archive.infolist())
-    except zipfile.BadZipFile:
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError):  # of names and versions, too
         raise FileFormatError(str(path), "a whole archive", "a broken one") from None
     if size > LIMITS.unpacked:
         raise InvalidInputError("the file", f"at most {LIMITS.unpacked} bytes unpacked", f"{size}")

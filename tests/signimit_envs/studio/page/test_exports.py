@@ -104,6 +104,14 @@ def test_a_whole_session_of_long_strokes_is_not_too_much() -> None:
         assert len(import_bytes(name, export_bytes(name, session, None))) == 100
 
 
+def test_an_archive_with_a_name_in_no_encoding_is_refused_in_a_sentence() -> None:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w") as archive:
+        archive.writestr("é.npy", b"")
+    with pytest.raises(InvalidInputError, match="expected a whole archive, found a broken one"):
+        import_bytes("strokes.npz", buffer.getvalue().replace("é".encode(), b"\xff\xff"))
+
+
 def test_more_than_could_have_been_drawn_here_is_refused(shown: Make) -> None:
     far = replace(shown(), objects=np.full((3, 2), 50.0) + np.arange(6).reshape(3, 2))
     with pytest.raises(InvalidInputError, match="demonstration 0: expected objects and hand within"):
