@@ -57,7 +57,10 @@ class RecordedEpisode:
         if self.seed is not None and (not isinstance(self.seed, int) or self.seed < 0):
             raise InvalidInputError("seed", "a whole number, 0 or more, or none", f"{self.seed!r:.40}")
         for name, dtype in _STEP_FIELDS.items():
-            object.__setattr__(self, name, _rows(getattr(self, name), name, steps, dtype))
+            rows_of_step = _rows(getattr(self, name), name, steps, dtype)
+            if dtype is not None and rows_of_step.ndim != 1:
+                raise InvalidInputError(name, f"shape ({steps},)", f"shape {rows_of_step.shape}")
+            object.__setattr__(self, name, rows_of_step)
         for name, rows in (("states", steps + 1), ("controls", steps)):
             numbers = _rows(getattr(self, name), name, rows, np.float64)
             if numbers.ndim != 2:

@@ -46,6 +46,7 @@ def test_a_half_written_file_is_refused(recording: Recording, tmp_path: Path) ->
         ("rewards", np.zeros(65, np.complex128), "episode 0: rewards: expected numbers for 40 steps, found complex128"),
         ("states", np.full((67, 30), 1e200), "episode 0: states: expected finite numbers"),
         ("rewards", np.full(65, np.longdouble("1e4000")), "episode 0: rewards: expected finite numbers"),
+        ("terminations", np.zeros((65, 2), bool), "episode 0: terminations: expected shape (40,), found shape (40, 2)"),
         ("wheels", np.zeros(65), "expected the fields of an episode, found 'wheels'"),
     ],
 )
