@@ -16,7 +16,8 @@ from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
 from signimit.learners.base import Belief, Understanding
-from signimit.learners.joint.drawing_distance import make_drawing
+from signimit.paths import half_size
+from signimit.segmentation import find_drawing
 
 DOUBT = 0.1  # an object or a movement that is at least this probable beside the chosen one makes it ambiguous
 OBJECT_NAMES = ("red", "green", "blue", "violet", "orange", "teal")
@@ -197,8 +198,8 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
     to_focus = _most_doubtful(about_focus, focus, shown.shape[1])
     lesson = 1.0 / (1.0 + shown) + about_movement[to_movement][:, None] + about_focus[to_focus]
     lesson[:, to_focus < 0] = 0.0  # no demonstration has the word for that object
-    half_size = float(np.median([make_drawing(d.hand, d.times).half_size for d in demonstrations]))
-    gains = lesson[None] * _clarity(scenes, _CLEAR * half_size)[:, None]
+    unit = float(np.median([half_size(d.hand[find_drawing(d.hand, d.times)]) for d in demonstrations]))
+    gains = lesson[None] * _clarity(scenes, _CLEAR * unit)[:, None]
     scene, movement, about = (int(i) for i in np.unravel_index(int(gains.argmax()), gains.shape))
     copied = [int(to_focus[about])] * len(demonstrations[0].signs)
     copied[order.movement] = int(to_movement[movement])

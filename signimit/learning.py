@@ -18,6 +18,7 @@ from signimit.explanation import Query, Reasons, choose_query, explain_understan
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learners.base import SignReader, Understanding
+from signimit.lexicon import Sign, find_lexicon
 from signimit.learners.model_files import ModelParts, read_model, write_model
 from signimit.policies import DEFAULT_POLICY, PlacedPolicy, Policy, check_policy_kind, make_policy
 from signimit.signs import prototype_points
@@ -103,6 +104,17 @@ class ImitationModel:
         """Object each demonstration was about, shape (N,)."""
         return self.understanding.focus
 
+    @cached_property
+    def trust(self) -> NDArray[np.float64]:
+        """Probability that each demonstration was meant as it looks, shape (N,); 1 where the method does not say."""
+        known = self.understanding.trust
+        return np.ones(len(self.labels)) if known is None else known
+
+    @cached_property
+    def lexicon(self) -> tuple[Sign, ...]:
+        """The signs that were found, each with its meaning and the demonstrations that show it."""
+        return find_lexicon(self.understanding)
+
     @property
     def word_order(self) -> WordOrder:
         """Which word names the object and which the movement."""
@@ -115,8 +127,9 @@ class ImitationModel:
 
     @cached_property
     def landmarks(self) -> NDArray[np.float64]:
-        """Place each demonstration was about, shape (N, 2), m, table frame: where its focus was."""
+        """Place each demonstration was about, shape (N, 2), m, table frame: where its focus was; NaN if about none."""
         places = self.demonstrations.objects[np.arange(len(self.focus)), self.focus]
+        places[self.focus < 0] = np.nan
         places.setflags(write=False)
         return places
 
@@ -155,7 +168,7 @@ class ImitationModel:
         places = finite_array(objects, "objects", (count, 2))
         reading = self._reader.read(utterance)
         movement, focus = int(reading.movement.argmax()), int(reading.focus.argmax())
-        confidence = float(reading.movement[movement] * reading.focus[focus])
+        confidence = float(reading.movement[movement] * reading.focus[focus] * reading.known)
         return Response(movement, focus, self.policy(movement).at(places[focus]), confidence)
 
     def respond_if_sure(self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float) -> Response | None:

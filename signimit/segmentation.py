@@ -10,9 +10,9 @@ from signimit.validation import finite_array
 
 Array = NDArray[np.float64]
 
-_SMOOTHED = 0.06  # s over which a speed is averaged: a hand's tremor is no stop
+_SMOOTHED = 0.04  # s over which a speed is averaged: a hand's tremor is no stop
 _TYPICAL = 0.75  # quantile of the speed that counts as that of a moving hand
-_STOP = 0.3  # of that speed: a minimum below it is a stop
+_STOP = 0.4  # of that speed, or of the fastest since the stop before: a minimum below it is a stop
 _STRAIGHT = 0.95  # of a way's length between its ends: a reach, or a way home, in one go
 _BENT = 0.85  # the same of a reach that is a curve: the first stop of a path ends it
 _HOME = 0.25  # half sizes between the path's ends, within which the hand went back to where it was
@@ -58,7 +58,7 @@ def find_drawing(path: ArrayLike, times: ArrayLike) -> slice:
 
 
 def find_stops(path: Array, times: Array) -> NDArray[np.intp]:
-    """Find where a hand stops: samples at which its smoothed speed is least and below 0.3 of that of a moving hand.
+    """Find where a hand stops: minima of its smoothed speed far below the speed of a moving hand, or of the way before.
 
     Args:
         path: Hand positions, shape (T, 2), any unit.
@@ -74,8 +74,14 @@ def find_stops(path: Array, times: Array) -> NDArray[np.intp]:
     width = min(width, 2 * ((len(path) - 1) // 2) - 1)
     if width > 1:
         speed = np.convolve(np.pad(speed, width // 2, "edge"), np.full(width, 1 / width), "valid")
-    slow = speed[1:-1] < _STOP * np.quantile(speed, _TYPICAL)
-    return np.flatnonzero(slow & (speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
+    low = _STOP * float(np.quantile(speed, _TYPICAL))
+    dips = np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1
+    stops: list[int] = []
+    for dip in dips:
+        fastest = speed[stops[-1] if stops else 0 : dip].max()
+        if speed[dip] < max(low, _STOP * fastest):
+            stops.append(int(dip))
+    return np.array(stops, dtype=np.intp)
 
 
 def _straightness(path: Array) -> float:

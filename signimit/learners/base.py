@@ -40,15 +40,30 @@ class Evidence(Protocol):
 
 
 @one_line
+class Asked(NamedTuple):
+    """What the words of each demonstration ask for, which need not be what was done.
+
+    Attributes:
+        movement: Shape (N,), numbers of movements.
+        focus: Shape (N,), numbers of objects.
+    """
+
+    movement: NDArray[np.int64]
+    focus: NDArray[np.int64]
+
+
 class Understanding(NamedTuple):
     """Everything that was inferred.
 
     Attributes:
-        labels: Movement of each demonstration, shape (N,), 0, 1, ... in order of first appearance.
-        focus: Object each demonstration was about, shape (N,).
+        labels: Movement of each demonstration, shape (N,), 0, 1, ... in order of first appearance; -1 where it is none
+            that the others show.
+        focus: Object each demonstration was about, shape (N,); -1 where it was about none.
         word_order: Which word of the utterance names the object and which the movement.
         belief: Probabilities, where the learner has any.
         evidence: What the learner measured, where it keeps anything.
+        asked: What was asked for, where the learner tells that from what was done.
+        trust: Probability that a demonstration was meant as it looks, shape (N,), where the learner has any.
     """
 
     labels: NDArray[np.int64]
@@ -56,6 +71,13 @@ class Understanding(NamedTuple):
     word_order: WordOrder
     belief: Belief | None = None
     evidence: Evidence | None = None
+    asked: Asked | None = None
+    trust: NDArray[np.float64] | None = None
+
+    @property
+    def requests(self) -> Asked:
+        """What the words of each demonstration ask for: what was done, unless the learner tells more."""
+        return self.asked or Asked(self.labels, self.focus)
 
     @property
     def diagnostics(self) -> Mapping[str, NDArray[Any]]:
@@ -71,10 +93,12 @@ class Reading(NamedTuple):
     Attributes:
         movement: Probability of each movement, shape (K,).
         focus: Probability of each object, shape (O,).
+        known: Probability that both words are signs that were taught.
     """
 
     movement: NDArray[np.float64]
     focus: NDArray[np.float64]
+    known: float = 1.0
 
 
 class SignReader(Protocol):

@@ -14,7 +14,7 @@ from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameE
 from signimit.inference import WordOrder
 from signimit.io.archive import read_archive, write_archive
 from signimit.learners import get_learner
-from signimit.learners.base import Belief, Learner, Understanding
+from signimit.learners.base import Asked, Belief, Learner, Understanding
 from signimit.policies import check_policy_kind
 from signimit.signs import prototype_points
 from signimit.strokes import cut, flatten
@@ -40,6 +40,8 @@ def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
     arrays = {f"demonstrations__{k}": v for k, v in parts.demonstrations.to_arrays().items()}
     arrays |= {f"diagnostics__{k}": v for k, v in known.diagnostics.items()}
     arrays |= {"labels": known.labels, "focus": known.focus, "word_order": np.array(known.word_order)}
+    if known.asked is not None and known.trust is not None:
+        arrays |= {"asked_movement": known.asked.movement, "asked_focus": known.asked.focus, "trust": known.trust}
     if parts.prototypes is not None:
         points, _, offsets = flatten([(p, np.zeros(len(p))) for p in parts.prototypes])
         arrays |= {"prototypes": points, "prototype_offsets": offsets}
@@ -79,23 +81,33 @@ def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any
 
 def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: DemonstrationSet, learner: Learner) -> Understanding:
     count, frames, words = len(demos), demos.objects.shape[1], len(demos[0].signs)
-    labels = _indices(arrays["labels"], "labels", (count,), count)
-    if len(np.unique(labels)) != labels.max() + 1:
+    labels = _indices(arrays["labels"], "labels", (count,), count, least=-1)
+    movements = int(labels.max()) + 1
+    if not movements or len(np.unique(labels[labels >= 0])) != movements:
         raise InvalidInputError("labels", "movements numbered without gaps", f"{labels[:8].tolist()}")
-    focus = _indices(arrays["focus"], "focus", (count,), frames)
+    focus = _indices(arrays["focus"], "focus", (count,), frames, least=-1)
+    if ((focus < 0) != (labels < 0)).any():
+        raise InvalidInputError("focus", "-1 where the label is -1, and nowhere else", f"{focus[:8].tolist()}")
     order = _indices(arrays["word_order"], "word order", (2,), words)
     known = _part(arrays, "diagnostics__")
-    shapes = ((count, frames), (count, int(labels.max()) + 2), (words, words))
+    shapes = ((count, frames), (count, movements + 1), (words, words))
     belief = None
     if set(Belief._fields) <= known.keys():
         named = zip(Belief._fields, shapes, strict=True)
         belief = Belief(*(float_array(known[name], name.replace("_", " "), shape) for name, shape in named))
     evidence = learner.restore_evidence(demos, known)
-    return Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), belief, evidence)
+    asked = trust = None
+    if {"asked_movement", "asked_focus", "trust"} <= arrays.keys():
+        movement = _indices(arrays["asked_movement"], "asked movement", (count,), movements)
+        asked = Asked(movement, _indices(arrays["asked_focus"], "asked focus", (count,), frames))
+        trust = float_array(arrays["trust"], "trust", (count,))
+        if not ((trust >= 0) & (trust <= 1)).all():
+            raise InvalidInputError("trust", "probabilities from 0 to 1", f"{trust[:8].tolist()}")
+    return Understanding(labels, focus, WordOrder(int(order[0]), int(order[1])), belief, evidence, asked, trust)
 
 
-def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int) -> NDArray[np.int64]:
+def _indices(value: NDArray[Any], where: str, shape: tuple[int, ...], count: int, least: int = 0) -> NDArray[np.int64]:
     array = whole_numbers(value, where, shape)
-    if (array < 0).any() or (array >= count).any():
-        raise InvalidInputError(where, f"whole numbers from 0 to {count - 1}", f"{array[:8].tolist()}")
+    if (array < least).any() or (array >= count).any():
+        raise InvalidInputError(where, f"whole numbers from {least} to {count - 1}", f"{array[:8].tolist()}")
     return array

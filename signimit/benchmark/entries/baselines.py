@@ -11,8 +11,9 @@ from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.grouping import canonical_labels
 from signimit.inference import WordOrder
 from signimit.learners.base import Reading, Understanding
-from signimit.learners.joint.drawing_distance import make_drawing
+from signimit.paths import box_centre
 from signimit.policies import make_policy
+from signimit.segmentation import find_drawing
 from signimit.signs import normalised_sign, pairwise_dtw
 
 Place = NDArray[np.float64]
@@ -52,7 +53,8 @@ class Chance(Follower):
         movement, focus = int(self._rng.integers(movements)), int(self._rng.integers(len(objects)))
         self.reading = certain_reading(movement, focus, movements, len(objects))
         shown = self._demonstrations[int(self._rng.choice(np.flatnonzero(labels == movement)))]
-        policy = make_policy([shown.hand - make_drawing(shown.hand, shown.times).centre], [shown.times])
+        middle = box_centre(shown.hand[find_drawing(shown.hand, shown.times)])
+        policy = make_policy([shown.hand - middle], [shown.times])
         self.follow(policy.at(objects[focus]))
 
 

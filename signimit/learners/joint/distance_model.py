@@ -101,17 +101,6 @@ def _log_normal(x: NDArray[np.float64], mean: float, spread: float) -> NDArray[n
     return np.asarray(-0.5 * ((x - mean) / spread) ** 2 - np.log(spread))
 
 
-DRAWINGS = DistanceModel(
-    equal_mean=-1.2,
-    equal_mean_spread=0.2,
-    equal_spread=0.23,
-    other_mean=0.08,
-    other_spread=0.30,
-    odd_share=0.01,
-    akin_share=0.06,
-    akin_mean=-0.7,
-    akin_spread=0.2,
-)
 SIGNS = DistanceModel(
     equal_mean=-1.17,
     equal_mean_spread=0.25,

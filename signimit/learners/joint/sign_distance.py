@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import logsumexp, softmax
+from scipy.special import expit, logsumexp, softmax
 
 from signimit.acceleration import find_twin
 from signimit.learners.base import Reading, Understanding
@@ -26,6 +26,8 @@ _LARGEST_GAP = 1.2  # in the same unit
 _MOST_SHEAR = 0.5
 _FLATNESS = 0.05  # share of the width that counts as height: the slant of a flat sign is nothing
 _SHARPNESS = 10.0  # a meaning weighs as the mean of distance ** -10 over its signs: near ones count, far ones hardly
+_UNKNOWN = 0.6  # distance at which a sign is as likely none that was taught as one
+_TEMPERATURE = 1.0
 _PAIRS = 2**9  # pairs that are compared at once
 _SECONDS = 3e-6  # that numpy takes for a sign beside another
 
@@ -105,15 +107,20 @@ class VocabularyReader:
 
     def read(self, signs: Sequence[ArrayLike]) -> Reading:
         """Read an utterance."""
-        labels, focus, order = self.understanding[:3]
-        movement = self._weigh(signs[order.movement], order.movement, labels, int(labels.max()) + 1)
-        return Reading(movement, self._weigh(signs[order.focus], order.focus, focus, self.objects))
+        order, asked = self.understanding.word_order, self.understanding.requests
+        movements = int(self.understanding.labels.max()) + 1
+        movement, movement_known = self._weigh(signs[order.movement], order.movement, asked.movement, movements)
+        focus, focus_known = self._weigh(signs[order.focus], order.focus, asked.focus, self.objects)
+        return Reading(movement, focus, movement_known * focus_known)
 
-    def _weigh(self, sign: ArrayLike, word: int, meanings: NDArray[np.int64], count: int) -> NDArray[np.float64]:
-        known = self.features[word]
-        nearness = -_SHARPNESS * np.log(cross_sign_distances(sign_features([sign]), known)[0] + 1e-6)
+    def _weigh(
+        self, sign: ArrayLike, word: int, meanings: NDArray[np.int64], count: int
+    ) -> tuple[NDArray[np.float64], float]:
+        """Return the probability of each meaning, shape (count,), and that of the sign having any of them."""
+        nearness = -_SHARPNESS * np.log(cross_sign_distances(sign_features([sign]), self.features[word])[0] + 1e-6)
         scores = np.full(count, -np.inf)
         for meaning in np.unique(meanings):
             members = nearness[meanings == meaning]
             scores[meaning] = logsumexp(members) - np.log(len(members))
-        return np.asarray(softmax(scores))
+        unknown = -_SHARPNESS * np.log(_UNKNOWN)
+        return np.asarray(softmax(scores / _TEMPERATURE)), float(expit((nearness.max() - unknown) / _TEMPERATURE))
