@@ -18,8 +18,8 @@ from signimit.explanation import Query, Reasons, choose_query, explain_understan
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learners.base import SignReader, Understanding
-from signimit.lexicon import Sign, find_lexicon
 from signimit.learners.model_files import ModelParts, read_model, write_model
+from signimit.lexicon import Sign, find_lexicon
 from signimit.policies import DEFAULT_POLICY, PlacedPolicy, Policy, check_policy_kind, make_policy
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke

@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 _SMOOTHED = 0.04  # s over which a speed is averaged: a hand's tremor is no stop
 _TYPICAL = 0.75  # quantile of the speed that counts as that of a moving hand
-_STOP = 0.4  # of that speed, or of the fastest since the stop before: a minimum below it is a stop
+_STOP = 0.4  # of that speed, or of the fastest since the last stop: a minimum below it is a stop
 _STRAIGHT = 0.95  # of a way's length between its ends: a reach, or a way home, in one go
 _BENT = 0.85  # the same of a reach that is a curve: the first stop of a path ends it
 _HOME = 0.25  # half sizes between the path's ends, within which the hand went back to where it was

@@ -1,5 +1,7 @@
 """Reaches and ways home are told from drawings."""
 
+import itertools
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -27,7 +29,7 @@ def _circle(rounds: float = 1.0) -> Array:
 
 def _triangle() -> Array:
     corners = 0.1 * np.array([[0.0, 1.0], [-0.9, -0.5], [0.9, -0.5], [0.0, 1.0]])
-    return np.concatenate([_way(a, b) for a, b in zip(corners, corners[1:], strict=False)] + [corners[-1:]])
+    return np.concatenate([_way(a, b) for a, b in itertools.pairwise(corners)] + [corners[-1:]])
 
 
 def _found(path: Array) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from signimit.learners.joint.drawing_distance import make_drawing
 
 import signimit
 import signimit_envs
@@ -24,7 +25,6 @@ from signimit.exceptions import SignimitError
 from signimit.io.formats import inventory_table, read_csv_demonstrations, read_inkml, read_strokes
 from signimit.io.formats.dollar import read_dollar
 from signimit.io.formats.unipen import read_unipen
-from signimit.learners.joint.drawing_distance import make_drawing
 from signimit.policies import Policy
 from signimit.signs import normalised_sign
 from signimit_envs.recording import Recording, load_recording

@@ -19,6 +19,11 @@ from signimit.signs import normalised_sign, pairwise_dtw
 Place = NDArray[np.float64]
 
 
+def _middle(shown: Demonstration) -> Place:
+    """Middle of the drawing in a demonstration, shape (2,), m, table frame."""
+    return box_centre(shown.hand[find_drawing(shown.hand, shown.times)])
+
+
 class Chance(Follower):
     """Baseline at chance level: guesses groups, foci, word order and readings, and follows a good policy.
 
@@ -53,8 +58,7 @@ class Chance(Follower):
         movement, focus = int(self._rng.integers(movements)), int(self._rng.integers(len(objects)))
         self.reading = certain_reading(movement, focus, movements, len(objects))
         shown = self._demonstrations[int(self._rng.choice(np.flatnonzero(labels == movement)))]
-        middle = box_centre(shown.hand[find_drawing(shown.hand, shown.times)])
-        policy = make_policy([shown.hand - middle], [shown.times])
+        policy = make_policy([shown.hand - _middle(shown)], [shown.times])
         self.follow(policy.at(objects[focus]))
 
 
@@ -93,6 +97,5 @@ class ReplayNearby(Replay):
     """
 
     def _origins(self, shown: Demonstration, objects: NDArray[np.float64]) -> tuple[Place, Place]:
-        centre = make_drawing(shown.hand, shown.times).centre
-        nearest = int(np.linalg.norm(shown.objects - centre, axis=1).argmin())
+        nearest = int(np.linalg.norm(shown.objects - _middle(shown), axis=1).argmin())
         return shown.objects[nearest], objects[nearest]

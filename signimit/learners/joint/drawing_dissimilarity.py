@@ -1,8 +1,8 @@
 """How unlike two drawings are, whoever drew them: log-odds of features that people who draw one thing share.
 
 Strangers draw one thing in other proportions, from another beginning, and in other manners; one person repeats
-themselves closely. Features are what the same drawing has in common: where ink lies and which way it goes, how it turns,
-how it is spread about its middle. Their weights were learned by logistic regression on pairs of real people's drawings,
+themselves closely. Features are what drawings of one thing have in common: where ink lies and which way it goes, how it
+turns, how it is spread about its middle. Their weights were learned by logistic regression on pairs of real people's drawings,
 one person's and strangers', of things that no session is made of (`study drawing-weights`).
 """
 
@@ -145,7 +145,7 @@ def compare_drawings(
 def pair_features(drawings: Sequence[Drawing], others: Sequence[Drawing] | None = None) -> Array:
     """Compute the features of all pairs, shape (A, B, 13), in the order of `FEATURES`; greater is more unlike."""
     second = drawings if others is None else others
-    a, b = Drawing(*map(np.stack, zip(*drawings, strict=True))), Drawing(*map(np.stack, zip(*second, strict=True)))
+    a, b = _stack(drawings), _stack(second)
     columns = [np.log(gaps + _FLOOR) for gaps in _nearest_gaps(a, b)]
     for one, other in ((a.histogram, b.histogram), (a.outline, b.outline)):
         columns.append(np.log(np.abs(one[:, None] - other).sum(axis=2) + _FLOOR))
@@ -153,13 +153,28 @@ def pair_features(drawings: Sequence[Drawing], others: Sequence[Drawing] | None 
     return np.stack(columns, axis=2)
 
 
-def _nearest_gaps(a: Drawing, b: Drawing) -> tuple[Array, Array, Array]:
+class _Stack(NamedTuple):
+    """Fields of many drawings, each with the drawings first."""
+
+    plain: Array
+    square: Array
+    histogram: Array
+    outline: Array
+    scalars: Array
+
+
+def _stack(drawings: Sequence[Drawing]) -> _Stack:
+    plain = [np.concatenate([d.points, d.directions], axis=1) for d in drawings]
+    rest = zip(*((d.square, d.histogram, d.outline, d.scalars) for d in drawings), strict=True)
+    return _Stack(np.stack(plain), *(np.stack(values) for values in rest))
+
+
+def _nearest_gaps(a: _Stack, b: _Stack) -> tuple[Array, Array, Array]:
     """Return the features of `MATCHED`, each of shape (A, B): how far it is to what is nearest in the other drawing."""
-    plain = [np.concatenate([x.points, x.directions], axis=2) for x in (a, b)]
-    seconds = _SECONDS * len(a.points) * len(b.points)
+    seconds = _SECONDS * len(a.plain) * len(b.plain)
     twin = find_twin("signimit.learners.joint.drawing_dissimilarity_numba", seconds)
     summarise = summarise_gaps if twin is None else twin.summarise_gaps
-    mean, large = summarise(*plain)
+    mean, large = summarise(a.plain, b.plain)
     return mean, large, summarise(a.square, b.square)[1]
 
 

@@ -22,7 +22,7 @@ from signimit.learners.base import Asked, Belief, Learner, Understanding
 from signimit.learners.joint.distance_model import SIGNS, DistanceModel
 from signimit.learners.joint.drawing_dissimilarity import DRAWINGS, DrawingWeights
 from signimit.learners.joint.measurements import Measurements, extend_measurements, measure
-from signimit.learners.joint.objective import NOTHING, Assumptions, Hypothesis, Objective, Scores, word_evidence
+from signimit.learners.joint.objective import NOTHING, PEOPLE, Assumptions, Objective, Scores, word_evidence
 from signimit.learners.joint.search import best_partition_value, first_hypotheses, search
 from signimit.learners.joint.sign_distance import VocabularyReader, sign_features
 from signimit.validation import finite_array
@@ -40,7 +40,7 @@ class JointLearner(Learner):
         signs: What a distance of signs says.
     """
 
-    assumed: Assumptions = Assumptions()
+    assumed: Assumptions = PEOPLE
     drawings: DrawingWeights = DRAWINGS
     signs: DistanceModel = SIGNS
 

@@ -61,6 +61,9 @@ class Assumptions(NamedTuple):
     irrelevance_price: float = 5.0
 
 
+PEOPLE = Assumptions()
+
+
 class Hypothesis(NamedTuple):
     """What each of N demonstrations does, and what it asks for.
 

@@ -36,7 +36,7 @@ def first_hypotheses(seen: Measurements, movement_word: Array, assumed: Assumpti
     drawn = drawing_evidence(seen.drawings, assumed)
     trees = [_tree(drawn + movement_word), _tree(drawn)]
     cuts = {
-        tuple(fcluster(tree, count, "maxclust"))
+        tuple(fcluster(tree, count, "maxclust").tolist())
         for tree in trees
         for count in range(1, min(_MOST_MOVEMENTS, len(place) - 1) + 1)
     } or {(1,) * len(place)}
@@ -53,7 +53,7 @@ def _tree(evidence: Array) -> Array:
 
 
 def best_partition_value(evidence: Array) -> float:
-    """Find how well the best partition of signs explains them, where it costs nothing, nats: for words that mean nothing.
+    """Find how well the best partition of signs explains them where it is free, nats: for words that mean nothing.
 
     Args:
         evidence: Weighted evidence of each pair, shape (N, N).
