@@ -23,9 +23,9 @@ def find_drawing(path: ArrayLike, times: ArrayLike) -> slice:
     """Find the drawing in a demonstrated path: what is left without the reach and the way home.
 
     A hand stops where a reach ends: its speed has a minimum there, far below that of a moving hand. What comes before
-    the first stop is the reach if it is about straight. What comes after the last stop is the way home if it is straight
-    and ends where the path began. If what is left is a straight line, nothing is taken away: the first and the last
-    side of a triangle are straight as well.
+    the first stop is the reach if it is about straight. What comes after the last stop is the way home if it is
+    straight and ends where the path began. If what is left is a straight line, nothing is taken away: the first and the
+    last side of a triangle are straight as well.
 
     Args:
         path: Hand positions, shape (T, 2), any unit.

@@ -2,8 +2,8 @@
 
 Strangers draw one thing in other proportions, from another beginning, and in other manners; one person repeats
 themselves closely. Features are what drawings of one thing have in common: where ink lies and which way it goes, how it
-turns, how it is spread about its middle. Their weights were learned by logistic regression on pairs of real people's drawings,
-one person's and strangers', of things that no session is made of (`study drawing-weights`).
+turns, how it is spread about its middle. Their weights were learned by logistic regression on pairs of real people's
+drawings, one person's and strangers' (`study drawing-weights`).
 """
 
 from __future__ import annotations
