@@ -35,7 +35,8 @@ class Assumptions(NamedTuple):
     Attributes:
         likeness: Dissimilarity at which two drawings are as likely one movement as two, nats.
         slope: Nats that a unit of dissimilarity counts.
-        most: Nats that one pair of drawings may say at most, for or against.
+        most_alike: Nats that a pair of drawings may say at most for one movement: closer than close is no more equal.
+        most_unlike: The same against.
         offset_spread: Standard deviation of a drawing's middle about where its movement lies, half sizes.
         area: Of the table, squared half sizes: a drawing that has nothing to do with a place lies anywhere in it.
         most_offset: Nats that the place of a pair may say for one movement.
@@ -49,7 +50,8 @@ class Assumptions(NamedTuple):
 
     likeness: float = -1.0
     slope: float = 0.7
-    most: float = 5.0
+    most_alike: float = 2.5
+    most_unlike: float = 5.0
     offset_spread: float = 0.25
     area: float = 20.0
     most_offset: float = 3.0
@@ -242,7 +244,7 @@ class Objective:
 
 def drawing_evidence(dissimilarities: Array, assumed: Assumptions) -> Array:
     """Evidence of drawings for one movement, shape (N, N), nats; 0 on the diagonal."""
-    alike = (assumed.slope * (assumed.likeness - dissimilarities)).clip(-assumed.most, assumed.most)
+    alike = (assumed.slope * (assumed.likeness - dissimilarities)).clip(-assumed.most_unlike, assumed.most_alike)
     np.fill_diagonal(alike, 0.0)
     return np.asarray(alike)
 
