@@ -27,11 +27,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 TOLERANCE = 0.22  # misfit up to which a path counts as a movement, in half sizes; `study judge`
-COVERED = 0.94  # least share of a drawing that must be passed; `study judge`
-SIZES = (
-    0.8,
-    1.3,
-)  # of a path that counts as a movement, in sizes of the drawing; set by hand: sessions draw 0.75 to 1.33
+COVERED = 0.95  # least share of a drawing that must be passed; `study judge`
+SIZES = (0.77, 1.34)  # of a path that counts, in sizes of the drawing; by hand: sessions draw 0.75 to 1.33
 _SAMPLES = 64  # of a path and of a drawing
 _ONCE, _ROUNDS = 1.15, 1.35  # length of the path's end that is compared, in lengths of the drawing
 _FITTED_SIZES = (0.85, 1.18)  # within which a drawing is scaled before it is compared
@@ -131,7 +128,7 @@ def performed(
     """Say which movement a path performed about which object (paper, section III).
 
     The movement and object with the least misfit count if one of the movement's drawings has a misfit of at most 0.22
-    half sizes, at least 94 % of it was passed in order, and the path has its size (0.8 to 1.3). A hand that draws from
+    half sizes, at least 95 % of it was passed in order, and the path has its size (0.77 to 1.34). A hand that draws from
     a drawing's beginning to its end has passed it all; a hand that joins elsewhere has once it has gone on for 0.3 of a
     round beyond. Shift, sampling and speed do not matter, nor rests.
 

@@ -78,7 +78,7 @@ class TabletopEnv(gym.Env[Any, NDArray[np.float32]]):
         request is fulfilled when `signimit.performed` takes the path of up to the last 12 s for the requested movement
         about the requested object, rather than for any other: the end of the path, as long as one drawing of it, must
         follow a drawing of the mover's from its beginning to its end, in order, with a misfit of at most 0.22 half
-        sizes, past at least 94 % of it, in 0.8 to 1.3 times its size. A hand that joins the drawing elsewhere has to
+        sizes, past at least 95 % of it, in 0.77 to 1.34 times its size. A hand that joins the drawing elsewhere has to
         draw a whole round after its first turn. So half a turn is no success however long the hand rests after it, nor
         is another shape, nor the right one the wrong way round. The path is looked at every half second, first after
         1.5 s: a look costs many steps, so the reward may come up to half a second after the deed.
