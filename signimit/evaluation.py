@@ -128,9 +128,9 @@ def performed(
     """Say which movement a path performed about which object (paper, section III).
 
     The movement and object with the least misfit count if one of the movement's drawings has a misfit of at most 0.22
-    half sizes, at least 95 % of it was passed in order, and the path has its size (0.77 to 1.34). A hand that draws from
-    a drawing's beginning to its end has passed it all; a hand that joins elsewhere has once it has gone on for 0.3 of a
-    round beyond. Shift, sampling and speed do not matter, nor rests.
+    half sizes, at least 95 % of it was passed in order, and the path has its size (0.77 to 1.34). A hand that draws
+    from a drawing's beginning to its end has passed it all; a hand that joins elsewhere has once it has gone on for 0.3
+    of a round beyond. Shift, sampling and speed do not matter, nor rests.
 
     Args:
         path: Hand positions, shape (T, 2), m, table frame.

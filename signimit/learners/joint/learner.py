@@ -21,7 +21,7 @@ from signimit.inference import WordOrder
 from signimit.learners.base import Asked, Belief, Learner, Understanding
 from signimit.learners.joint.distance_model import SIGNS, DistanceModel
 from signimit.learners.joint.drawing_dissimilarity import DRAWINGS, DrawingWeights
-from signimit.learners.joint.measurements import Measurements, extend_measurements, measure
+from signimit.learners.joint.measurements import EarlierMeasurements, Measurements, extend_measurements, measure
 from signimit.learners.joint.objective import NOTHING, PEOPLE, Assumptions, Objective, Scores, word_evidence
 from signimit.learners.joint.search import best_partition_value, first_hypotheses, search
 from signimit.learners.joint.sign_distance import VocabularyReader, sign_features
@@ -69,14 +69,21 @@ class JointLearner(Learner):
 
     def restore_evidence(
         self, demonstrations: DemonstrationSet, arrays: Mapping[str, NDArray[Any]]
-    ) -> Measurements | None:
+    ) -> Measurements | EarlierMeasurements | None:
         """Make the measurements again from the arrays of a model file; None where some are missing."""
         count, places, words = len(demonstrations), demonstrations.objects.shape[1], len(demonstrations[0].signs)
-        shapes = ((count, count), (words, count, count), (count, places, 2), (count, places))
-        if not set(Measurements._fields) <= arrays.keys():
-            return None
-        named = zip(Measurements._fields, shapes, strict=True)
-        return Measurements(*(finite_array(arrays[name], name.replace("_", " "), shape) for name, shape in named))
+        shapes = {
+            "drawings": (count, count),
+            "sign_distances": (words, count, count),
+            "offsets": (count, places, 2),
+            "place_evidence": (count, places),
+            "distances": (count, count, places, places),
+            "scale": (2,),
+        }
+        for kind in (Measurements, EarlierMeasurements):
+            if set(kind._fields) <= arrays.keys():
+                return kind(*(finite_array(arrays[n], n.replace("_", " "), shapes[n]) for n in kind._fields))
+        return None
 
     def _explain(self, seen: Measurements) -> Understanding:
         words = word_evidence(seen.sign_distances, self.assumed, self.signs)

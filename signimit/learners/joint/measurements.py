@@ -37,6 +37,22 @@ class Measurements(NamedTuple):
     place_evidence: Array
 
 
+class EarlierMeasurements(NamedTuple):
+    """What the joint learner of version 0.1.0 measured; its models are read and shown, and measured anew to go on.
+
+    Attributes:
+        distances: Distances of drawings in all pairs of frames, shape (N, N, O, O).
+        sign_distances: Distances of signs at each place of the utterance, shape (W, N, N).
+        place_evidence: Evidence of each drawing's place for each object, shape (N, O), nats.
+        scale: Typical log distances of equal drawings and signs in the session, shape (2,).
+    """
+
+    distances: Array
+    sign_distances: Array
+    place_evidence: Array
+    scale: Array
+
+
 def measure(demonstrations: DemonstrationSet, model: DrawingWeights = DRAWINGS) -> Measurements:
     """Measure a set of demonstrations; ``model`` says how unlike drawings are."""
     drawings = [describe_drawing(d.hand, d.times) for d in demonstrations]
