@@ -10,6 +10,7 @@ Importing this package registers ``signimit/Tabletop-v0`` and ``signimit/Tableto
 ``video``         pictures and films of the scene
 ``recording``     episodes with their physics states, replayed exactly, in several file formats
 ``studio``        the web page on which a user teaches and commands the arm
+``robustness``    what is tried to break the loaders and writers: damaged files, killed writers, full disks
 ``timing``        how long learning, obeying and the environments take
 ``cli``           the commands
 ``mujoco_import`` the first import of MuJoCo, which must not fail where only pictures would

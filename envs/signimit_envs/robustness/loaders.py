@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from signimit.learners.joint.drawing_distance import make_drawing
 
 import signimit
 import signimit_envs
@@ -25,6 +24,7 @@ from signimit.exceptions import SignimitError
 from signimit.io.formats import inventory_table, read_csv_demonstrations, read_inkml, read_strokes
 from signimit.io.formats.dollar import read_dollar
 from signimit.io.formats.unipen import read_unipen
+from signimit.learners.joint.drawing_dissimilarity import describe_drawing
 from signimit.policies import Policy
 from signimit.signs import normalised_sign
 from signimit_envs.recording import Recording, load_recording
@@ -111,7 +111,7 @@ def use_demonstrations(demonstrations: DemonstrationSet) -> None:
     for one in demonstrations:
         _ = repr(one)
         _check_finite(np.gradient(one.hand, one.times, axis=0))
-        _check_finite(make_drawing(one.hand, one.times).half_size)
+        _check_finite(describe_drawing(one.hand, one.times).half_size)
         for sign in one.signs:
             _check_finite(normalised_sign(sign))
 
