@@ -43,6 +43,7 @@ from signimit.strokes import StrokeLibrary
 from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import check_output_folder, command_text
 from signimit_envs.cli.options import ALL_CELLS, CellOptions
+from signimit_envs.cli.study_drawing_weights import compare_libraries, study_drawing_weights
 from signimit_envs.cli.study_judge import study_judge
 from signimit_envs.cli.study_paper import compare_conditions
 from signimit_envs.cli.study_policies import compare_on_lasa, compare_policies
@@ -154,12 +155,22 @@ def _asked(records: list[Record]) -> tuple[list[float], list[int]]:
     return [sure for sure, _ in asked], [right for _, right in asked]
 
 
-def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Path = OUT) -> None:
+def left_out_people(
+    *,
+    signs: Path,
+    movements: Path,
+    strangers: tuple[Path, ...] = (),
+    without: tuple[str, ...] = (),
+    sessions: int = 20,
+    out: Path = OUT,
+) -> None:
     """Cross-validate the constants of the evidence: learn from people who were left out when they were measured.
 
     Args:
         signs: Stroke library of real people who make signs.
         movements: Stroke library of real people who draw movements.
+        strangers: Libraries of further people, who are never left out; weights of drawings are fitted to them too.
+        without: Labels that are left out of these, if everybody drew one thing.
         sessions: How many of each cell.
         out: Folder for what is written.
     """
@@ -167,7 +178,7 @@ def left_out_people(*, signs: Path, movements: Path, sessions: int = 20, out: Pa
         raise InvalidInputError("people", "at least 1 session", str(sessions))
     check_output_folder(out)
     recordings, rows = Recordings(StrokeLibrary.load(signs), StrokeLibrary.load(movements)), []
-    for row in leave_people_out(recordings, sessions):
+    for row in leave_people_out(recordings, sessions, compare_libraries(strangers, without)):
         print(
             f"{row.mover}, {row.cell}: {row.right_without} of {row.sessions} right with constants measured without "
             f"these people, {row.right_shipped} with the package's",
@@ -256,5 +267,5 @@ def write_facts(path: Path, facts: dict[str, Any]) -> None:
 SUBCOMMANDS = {
     "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
     "real-people": real_people, "judge": study_judge, "paper": compare_conditions,
-    "policies": compare_policies, "lasa": compare_on_lasa,
+    "policies": compare_policies, "lasa": compare_on_lasa, "drawing-weights": study_drawing_weights,
 }  # fmt: skip

@@ -17,7 +17,8 @@ from signimit.exceptions import MissingDependencyError
 from signimit.grouping import canonical_labels, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
 from signimit.learners.base import Understanding
-from signimit.learners.joint.drawing_distance import compare_drawings, make_drawing
+from signimit.learners.joint.measurements import measure
+from signimit.learners.joint.objective import Assumptions
 from signimit.signs import SignSpace
 from signimit.similarity import maximum_similarities, policy_distances
 from signimit.teaching.sessions import Session
@@ -40,10 +41,17 @@ class SharedDistances:
         return policy_distances(demos.paths, demos.objects)
 
     @cached_property
-    def traces(self) -> Table:
-        """Squared distances of drawings, shape (N, N, O, O): the default learner's, squared as the paper's are."""
-        demos = self.session.demonstrations
-        return compare_drawings([make_drawing(d.hand, d.times) for d in demos], demos.objects) ** 2
+    def drawings(self) -> Table:
+        """The default learner's dissimilarity of drawings in place of Δ, shape (N, N, O, O).
+
+        γ = 1 / Δ is then the odds of two drawings being one movement: log γ is how alike they are, in nats, less what
+        their places about the two objects say against it, as far as the learner lets places speak.
+        """
+        seen, assumed = measure(self.session.demonstrations), Assumptions()
+        away = seen.offsets[:, None, :, None] - seen.offsets[None, :, None, :]  # (N, N, O, O, 2)
+        apart = (away**2).sum(axis=-1) / (4 * assumed.offset_spread**2)
+        apart = np.minimum(apart, assumed.most_offset - assumed.least_offset)
+        return np.asarray(np.exp(seen.drawings[:, :, None, None] + apart))
 
     @cached_property
     def sign_points(self) -> Table:
@@ -144,7 +152,7 @@ BASELINES = (
     "paper",
     "paper-literal",
     *CLUSTERINGS,
-    *(f"{name}, traces" for name in CLUSTERINGS),
+    *(f"{name}, drawings" for name in CLUSTERINGS),
     "chance",
 )
 
@@ -157,8 +165,8 @@ def infer(distances: SharedDistances, method: str) -> Understanding:
         order = WordOrder(*rng.permutation(language.words)[:2].tolist())
         labels = rng.integers(0, len(language.movements), count)
         return Understanding(canonical_labels(labels), rng.integers(0, language.objects, count), order)
-    name = method.removesuffix(", traces")
-    table = distances.traces if method.endswith(", traces") else distances.policies
+    name = method.removesuffix(", drawings")
+    table = distances.drawings if method.endswith(", drawings") else distances.policies
     gamma = maximum_similarities(table)
     if name in CLUSTERINGS:
         count = len(np.unique(distances.session.truth.movement))

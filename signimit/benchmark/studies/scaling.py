@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signimit.demonstrations import DemonstrationSet
-from signimit.learners.joint.drawing_distance import compare_drawings, make_drawing
+from signimit.learners.joint.drawing_dissimilarity import compare_drawings, describe_drawing
 from signimit.learning import learn
 from signimit.paths import resample_path
 from signimit.similarity import policy_distances
@@ -88,7 +88,7 @@ def _measure(count: int, step: str, code: str, seed: int) -> Measurement:
     elif step == "distances of policies":
         policy_distances([resample_path(path, POINTS) for path in demonstrations.paths], demonstrations.objects)
     else:
-        compare_drawings([make_drawing(d.hand, d.times) for d in demonstrations], demonstrations.objects)
+        compare_drawings([describe_drawing(d.hand, d.times) for d in demonstrations])
     seconds, worked = time.perf_counter() - start, time.process_time() - busy
     return Measurement(count, step, code, round(seconds, 4), round(worked, 4), round(_peak() - before, 1))
 

@@ -82,7 +82,11 @@ class Drawing(NamedTuple):
 
 def describe_drawing(path: Array, times: Array) -> Drawing:
     """Describe the drawing in a demonstrated path, shape (T, 2), m, with its times, shape (T,), s."""
-    ink = path[find_drawing(path, times)]
+    return describe_ink(path[find_drawing(path, times)])
+
+
+def describe_ink(ink: Array) -> Drawing:
+    """Describe a drawing without a reach or a way home, shape (T, 2), m, table frame."""
     centre, unit = box_centre(ink), half_size(ink)
     ink = (ink - centre) / unit
     extents = np.maximum(np.ptp(ink, axis=0) / 2, _FLAT)
