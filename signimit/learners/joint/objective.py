@@ -148,8 +148,8 @@ class Objective:
         self._everyone = np.arange(self.count)
 
     def start(self, hypothesis: Hypothesis) -> None:
-        """Take up a hypothesis."""
-        self.hypothesis = known = hypothesis.compact()
+        """Take up a copy of a hypothesis."""
+        self.hypothesis = known = Hypothesis(*(values.copy() for values in hypothesis.compact()))
         self._done_sums = np.zeros(
             (self.count, int(max(known.movement.max(), known.asked_movement.max())) + 2, self.places)
         )

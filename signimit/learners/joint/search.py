@@ -70,20 +70,16 @@ def search(objective: Objective, starts: list[Hypothesis]) -> tuple[float, Hypot
     """Return the highest objective that is reached from any start, nats, and the hypothesis."""
     ranked = []
     for start in starts:
-        objective.start(_copy(start))
+        objective.start(start)
         ranked.append(objective.value())
     chosen = np.argsort(-np.array(ranked), kind="stable")[:_SETTLED]
     found = [(_settle(objective, starts[i]), objective.hypothesis) for i in chosen]
     return max(found, key=lambda end: end[0])
 
 
-def _copy(hypothesis: Hypothesis) -> Hypothesis:
-    return Hypothesis(*(values.copy() for values in hypothesis))
-
-
 def _settle(objective: Objective, start: Hypothesis) -> float:
     """Move one demonstration after another to where it fits best, the most urgent first, until none wants to move."""
-    objective.start(_copy(start))
+    objective.start(start)
     everyone = np.arange(objective.count)
     for _ in range(_MOVES * objective.count):
         scores, known = objective.scores(), objective.hypothesis
