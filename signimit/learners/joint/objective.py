@@ -98,12 +98,13 @@ class Scores(NamedTuple):
     """What the objective gains by each choice for each demonstration, given all others; nats.
 
     Attributes:
-        done: By doing a movement about a place, shape (N, K + 1, C); the last movement is a new one.
+        done: By doing a movement about a place, shape (N, K + 1, C); the last movement is a new one. -inf if it would
+            leave a movement that somebody else asks for and nobody else shows.
         movement: By asking for a movement, shape (N, K + 1).
         focus: By asking for it to be about a place, shape (N, C).
         shown: Whether somebody else does the movement, shape (N, K + 1).
         mistake: Price of doing a movement when something else is asked for, shape (N, K + 1).
-        irrelevance: Price of doing none of the movements.
+        irrelevance: Price of doing none of the movements, shape (N,).
     """
 
     done: Array
@@ -111,7 +112,7 @@ class Scores(NamedTuple):
     focus: Array
     shown: NDArray[np.bool_]
     mistake: Array
-    irrelevance: float
+    irrelevance: Array
 
     @property
     def meant(self) -> Array:
@@ -210,10 +211,14 @@ class Objective:
         choice = self._choice(before + (others == 0))
         # A movement more is a choice more for all who do something else than they ask for.
         price = self._price(others) + (mistakes.sum() - mistakes)[:, None] * (choice - self._choice(before))
+        asking = _members(known.asked_movement, member.shape[1])
+        alone = (member * (others == 0) * (asking.sum(axis=0) - asking)).any(axis=1)
+        price += np.where(alone[:, None] & (member == 0), np.inf, 0.0)
         gain = drawn + self._place[:, None] - price[:, :, None]
         movement = self._joining(self._movement_sums, known.asked_movement)
         focus = self._joining(self._focus_sums, known.asked_focus)
-        return Scores(gain, movement, focus, others > 0, assumed.mistake_price + choice, assumed.irrelevance_price)
+        irrelevance = np.where(alone, np.inf, assumed.irrelevance_price)
+        return Scores(gain, movement, focus, others > 0, assumed.mistake_price + choice, irrelevance)
 
     def _joining(self, sums: Array, meaning: Indices) -> Array:
         """Gain of each sign by each meaning, given all others, shape (N, M)."""
