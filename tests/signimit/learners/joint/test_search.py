@@ -10,15 +10,14 @@ from numpy.typing import NDArray
 
 from signimit import WordOrder
 from signimit.learners.joint.measurements import Measurements
-from signimit.learners.joint.objective import NOTHING, Assumptions, Hypothesis, Objective
+from signimit.learners.joint.objective import NOTHING, PEOPLE, Hypothesis, Objective
 from signimit.learners.joint.search import best_choices, best_partition_value, first_hypotheses, search
 
 Array = NDArray[np.float64]
 Labels = NDArray[np.int64]
 properties = settings(deadline=None, derandomize=True, max_examples=30)
-sessions = st.tuples(st.integers(1, 9), st.integers(1, 3), st.integers(0, 10_000))
+sessions = st.tuples(st.integers(1, 12), st.integers(1, 3), st.integers(0, 10_000))
 ORDER = WordOrder(0, 1)
-ASSUMED = Assumptions()
 
 
 def random_objective(count: int, places: int, seed: int) -> tuple[Objective, list[Hypothesis]]:
@@ -29,7 +28,7 @@ def random_objective(count: int, places: int, seed: int) -> tuple[Objective, lis
     words[:, np.arange(count), np.arange(count)] = 0.0
     offsets, place = rng.normal(0, 0.4, (count, places, 2)), rng.normal(0, 3, (count, places))
     seen = Measurements(unlike, np.zeros_like(words), offsets, place)
-    return Objective(seen, words, ORDER, ASSUMED), first_hypotheses(seen, words[ORDER.movement], ASSUMED)
+    return Objective(seen, words, ORDER, PEOPLE), first_hypotheses(seen, words[ORDER.movement], PEOPLE)
 
 
 def planted(done: Labels, place: Labels, asked: Labels, focus: Labels) -> tuple[Objective, list[Hypothesis]]:
@@ -44,7 +43,20 @@ def planted(done: Labels, place: Labels, asked: Labels, focus: Labels) -> tuple[
     words = np.stack([np.where(meaning[:, None] == meaning, 3.0, -3.0) for meaning in (focus, asked)])
     words[:, np.arange(count), np.arange(count)] = 0.0
     seen = Measurements(unlike, np.zeros_like(words), offsets, evidence)
-    return Objective(seen, words, ORDER, ASSUMED), first_hypotheses(seen, words[ORDER.movement], ASSUMED)
+    return Objective(seen, words, ORDER, PEOPLE), first_hypotheses(seen, words[ORDER.movement], PEOPLE)
+
+
+class Watched(Objective):
+    """An objective that notes its value before and after each move."""
+
+    def __init__(self, objective: Objective) -> None:
+        self.__dict__.update(objective.__dict__)
+        self.moves: list[tuple[float, float]] = []
+
+    def move(self, member: int, movement: int, place: int, asked_movement: int, asked_focus: int) -> None:
+        before = self.value()
+        super().move(member, movement, place, asked_movement, asked_focus)
+        self.moves.append((before, self.value()))
 
 
 def everything(known: Hypothesis) -> list[list[int]]:
@@ -55,23 +67,9 @@ def everything(known: Hypothesis) -> list[list[int]]:
 @given(sessions)
 def test_no_move_of_a_search_lowers_the_objective(session: tuple[int, int, int]) -> None:
     objective, starts = random_objective(*session)
-    values: list[float] = []
-    began = objective.start
-    moved = objective.move
-
-    def start(hypothesis: Hypothesis) -> None:
-        began(hypothesis)
-        values.append(-np.inf)
-        values.append(objective.value())
-
-    def move(*choice: int) -> None:
-        moved(*choice)
-        values.append(objective.value())
-
-    objective.start, objective.move = start, move  # type: ignore[method-assign, assignment]
-    search(objective, starts)
-    steps = np.diff(values)
-    assert (steps[np.isfinite(steps)] > 0).all()
+    _, found = search(watched := Watched(objective), starts)
+    assert all(after > before for before, after in watched.moves)
+    assert set(found.asked_movement) <= set(found.movement)  # what is asked for is shown
 
 
 @properties
@@ -117,7 +115,7 @@ def test_sums_that_follow_the_moves_are_those_of_a_fresh_start(session: tuple[in
     objective, starts = random_objective(*session)
     rng = np.random.default_rng(session[2])
     objective.start(starts[0])
-    for _ in range(12):
+    for _ in range(6):
         movements = int(objective.hypothesis.movement.max()) + 2
         movement, place = int(rng.integers(-1, movements)), int(rng.integers(session[1]))
         shown = objective.hypothesis.movement[objective.hypothesis.movement != NOTHING]
@@ -158,16 +156,15 @@ def test_what_is_planted_is_found(kind: str) -> None:
     assert wrong.tolist() == ([] if kind == "sound" else [4])
 
 
-def test_what_is_found_in_four_demonstrations_is_the_best_of_all_answers() -> None:
+def test_what_is_found_in_three_demonstrations_is_the_best_of_all_answers() -> None:
     for seed in range(3):
-        objective, starts = random_objective(3, 2, seed)
-        best = -np.inf
+        objective, starts = random_objective(3, 1, seed)
+        best, nowhere_else = -np.inf, np.zeros(3, dtype=np.int64)
         for movement in product(range(-1, 3), repeat=3):
             shown = sorted(set(movement) - {NOTHING})
             for asked in product(shown, repeat=3):
-                for place, focus in product(product(range(2), repeat=3), repeat=2):
-                    objective.start(Hypothesis(*map(np.array, (movement, place, asked, focus))))
-                    best = max(best, objective.value())
+                objective.start(Hypothesis(np.array(movement), nowhere_else, np.array(asked), nowhere_else))
+                best = max(best, objective.value())
         assert search(objective, starts)[0] == pytest.approx(best)
 
 
@@ -176,7 +173,7 @@ def test_starts_are_one_to_twelve_movements_each_once_and_one_demonstration_has_
     for count, most in ((1, 1), (2, 1), (5, 4), (20, 12)):
         seen = Measurements(rng.normal(size=(count, count)), np.zeros((2, count, count)), *np.zeros((2, count, 3)))
         seen = seen._replace(drawings=seen.drawings + seen.drawings.T, place_evidence=np.eye(3)[np.arange(count) % 3])
-        starts = first_hypotheses(seen, np.zeros((count, count)), ASSUMED)
+        starts = first_hypotheses(seen, np.zeros((count, count)), PEOPLE)
         assert {int(start.movement.max()) + 1 for start in starts} == set(range(1, most + 1))
         assert len({tuple(start.movement) for start in starts}) == len(starts)
         for start in starts:
