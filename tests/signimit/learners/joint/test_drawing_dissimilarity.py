@@ -1,5 +1,7 @@
 """Features of pairs of drawings: by hand, against plain loops, and what they do not depend on."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -32,7 +34,7 @@ def polygon(sides: int, rounds: int = 1) -> Array:
     angles = np.linspace(0, 2 * np.pi * rounds, sides * rounds + 1) + np.pi / sides
     corners = 0.1 * np.column_stack([np.cos(angles), np.sin(angles)])
     share = np.linspace(0, 1, 30, endpoint=False)[:, None]
-    return np.concatenate([a + share * (b - a) for a, b in zip(corners[:-1], corners[1:], strict=True)])
+    return np.concatenate([a + share * (b - a) for a, b in pairwise(corners)])
 
 
 def described(path: Array) -> Drawing:
