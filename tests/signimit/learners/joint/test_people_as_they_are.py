@@ -24,7 +24,8 @@ from signimit.teaching.people import synthetic_library
 from signimit.teaching.scenes import reaching_path, sample_times
 
 Array = NDArray[np.float64]
-PLAIN = Language()
+SHAPES = Language(movements=("circle", "square", "star"))
+TRIANGLES = Language()  # of the paper: up, down, and a circle
 FAR = np.array([0.9, 0.8])  # m, from all objects
 
 
@@ -78,13 +79,12 @@ MISTAKES = pytest.mark.parametrize("fault", [another_movement, another_object])
 
 
 @cache
-def taught(seed: int) -> Teachers:
+def taught(seed: int, language: Language = SHAPES) -> Teachers:
     rng = np.random.default_rng([seed, 1])
-    signs = synthetic_library((*PLAIN.focus_signs, *PLAIN.movement_signs), samples=10, rng=rng)
-    movements = synthetic_library(PLAIN.movements, samples=10, rng=rng)
-    return Teachers(
-        PLAIN, signs, movements, *compose_demonstrations(PLAIN, signs, movements, np.random.default_rng(seed))
-    )
+    signs = synthetic_library((*language.focus_signs, *language.movement_signs), samples=10, rng=rng)
+    movements = synthetic_library(language.movements, samples=10, rng=rng)
+    shown = compose_demonstrations(language, signs, movements, np.random.default_rng(seed))
+    return Teachers(language, signs, movements, *shown)
 
 
 def same_partition(labels: NDArray[np.int64], others: NDArray[np.int64]) -> bool:
@@ -121,6 +121,15 @@ def test_who_answers_something_else_is_not_trusted_and_words_are_read_right(
     assert reads_all_right(model, people, sound)
 
 
+@pytest.mark.xfail(
+    strict=True, reason="drawings turned upside down are hardly unlike: -2.5 nats, where -1 is the middle"
+)
+def test_a_triangle_drawn_upside_down_by_mistake_is_not_trusted() -> None:
+    people = taught(0, TRIANGLES)
+    member = int(np.flatnonzero(people.truth.movement == 0)[0])
+    assert learn(people.all_but({member: another_movement(people, member)})).trust[member] < 0.5
+
+
 @MISTAKES
 def test_what_a_stray_did_and_what_it_was_asked_for_are_both_told(fault: Fault) -> None:
     people = taught(0)
@@ -154,8 +163,11 @@ def test_who_is_beside_the_point_shows_no_movement_and_is_about_nothing(strays: 
 @pytest.mark.parametrize("home", [False, True], ids=["stays", "goes home"])
 @pytest.mark.parametrize("rounds", [1, 2], ids=["once", "twice"])
 @pytest.mark.parametrize("seed", [0, 1])
-def test_movements_drawn_once_and_hands_that_go_home_are_understood(seed: int, rounds: int, home: bool) -> None:
-    people = taught(seed)
+@pytest.mark.parametrize("language", [SHAPES, TRIANGLES], ids=["shapes", "triangles"])
+def test_movements_drawn_once_and_hands_that_go_home_are_understood(
+    seed: int, rounds: int, home: bool, language: Language
+) -> None:
+    people = taught(seed, language)
     model = learn(people.as_asked(rounds, home))
     assert same_partition(model.labels, people.truth.movement)
     np.testing.assert_array_equal(model.focus, people.truth.focus)
