@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -186,7 +187,7 @@ def test_what_a_person_with_a_mouse_does_is_understood() -> None:
     assert reads_all_right(model, people, sound)
 
 
-def test_a_model_of_people_who_erred_is_the_same_from_a_file_and_goes_on(tmp_path: object) -> None:
+def test_a_model_of_people_who_erred_is_the_same_from_a_file_and_goes_on(tmp_path: Path) -> None:
     people = taught(0)
     shown = people.all_but({4: another_movement(people, 4), 7: beside_the_point(people, 7)})
     model = learn(DemonstrationSet(shown[:11]))
@@ -202,6 +203,9 @@ def test_a_model_of_people_who_erred_is_the_same_from_a_file_and_goes_on(tmp_pat
     for name in ("labels", "focus"):
         np.testing.assert_array_equal(getattr(later, name), getattr(batch, name))
     np.testing.assert_allclose(later.trust, batch.trust, atol=1e-3)
+    for array in (loaded.trust, *loaded.understanding.requests, model.trust):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
     loaded.save(f"{tmp_path}/again.npz")
     with np.load(path) as first, np.load(f"{tmp_path}/again.npz") as again:
         assert {n: first[n].tobytes() for n in first.files} == {n: again[n].tobytes() for n in again.files}
