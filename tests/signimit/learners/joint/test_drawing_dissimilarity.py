@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from signimit import acceleration
 from signimit.learners.joint.drawing_dissimilarity import (
     FEATURES,
     Drawing,
@@ -129,18 +128,6 @@ def test_gaps_are_those_of_plain_loops(first: int, second: int, width: int, seed
     mean, large = summarise_gaps(a, b)
     for i, k in np.ndindex(mean.shape):
         assert (mean[i, k], large[i, k]) == pytest.approx(slow_gaps(a[i], b[k]))
-
-
-@pytest.mark.parametrize(("count", "others"), [(1, 1), (3, 10), (10, 10)])
-def test_compiled_features_are_the_plain_ones(
-    monkeypatch: pytest.MonkeyPatch, paths: list[Array], count: int, others: int
-) -> None:
-    pytest.importorskip("numba")
-    drawings = [described(path) for path in paths]
-    plain = pair_features(drawings[:count], drawings[:others])
-    monkeypatch.setattr(acceleration, "WORTHWHILE", 0)
-    compiled = pair_features(drawings[:count], drawings[:others])
-    np.testing.assert_allclose(compiled, plain, atol=1e-5)
 
 
 @pytest.mark.parametrize(
