@@ -85,7 +85,7 @@ class ImitationModel:
 
     def __post_init__(self) -> None:
         """Make the arrays read-only."""
-        for array in (self.labels, self.focus, *self.diagnostics.values()):
+        for array in (self.labels, self.focus, self.trust, *self.understanding.requests, *self.diagnostics.values()):
             array.setflags(write=False)
 
     def __repr__(self) -> str:

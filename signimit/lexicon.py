@@ -16,6 +16,7 @@ from signimit.learners.base import Understanding
 
 _LEAST = 2  # signs of each form; a single odd one is no other way of writing
 _APART = 0.55  # mean distance across, at which halves are no farther apart than one person's signs of one form may be
+_CLOSE = 0.15  # distance below which signs are no more alike: those of demonstrations that were passed twice are at 0
 _CONTRAST = 0.75  # least difference of mean log distances, across and within, plus log of distance across over `_APART`
 
 
@@ -83,14 +84,15 @@ def _best_half(distances: NDArray[np.float64]) -> tuple[float, NDArray[np.bool_]
     best, chosen = -np.inf, np.zeros(count, dtype=bool)
     if count < 2 * _LEAST:
         return best, chosen
-    logs, pairs = np.log(np.maximum(distances, 1e-9)), np.triu(np.ones((count, count), dtype=bool), 1)
+    gaps = np.maximum(distances, _CLOSE)
+    logs, pairs = np.log(gaps), np.triu(np.ones((count, count), dtype=bool), 1)
     for node in to_tree(linkage(squareform(distances, checks=False), "average"), rd=True)[1]:
         half = np.isin(np.arange(count), node.pre_order())
         if min(half.sum(), (~half).sum()) < _LEAST:
             continue
         across = half[:, None] != half
         contrast = logs[pairs & across].mean() - logs[pairs & ~across].mean()
-        contrast += np.log(distances[pairs & across].mean() / _APART)
+        contrast += np.log(gaps[pairs & across].mean() / _APART)
         if contrast > best:
             best, chosen = float(contrast), half
     return best, chosen

@@ -130,7 +130,7 @@ def _probabilities(scores: Scores) -> tuple[Array, Array, Array]:
     """Return trust, shape (N,), and probabilities of movements, (N, K + 1), and places, (N, C), that are done."""
     count = len(scores.done)
     asked = logsumexp(scores.askable, axis=1) + logsumexp(scores.focus, axis=1)
-    meant, mistaken = scores.meant, scores.done + (asked - scores.mistake)[:, None, None]
+    meant, mistaken = scores.meant, scores.mistaken + asked[:, None, None]
     done = np.logaddexp(meant, mistaken)
     nothing = asked - scores.irrelevance
     total = np.logaddexp(logsumexp(done.reshape(count, -1), axis=1), nothing)

@@ -98,25 +98,31 @@ class Scores(NamedTuple):
     """What the objective gains by each choice for each demonstration, given all others; nats.
 
     Attributes:
-        done: By doing a movement about a place, shape (N, K + 1, C); the last movement is a new one.
+        done: By doing a movement about a place, shape (N, K + 1, C); the last movement is a new one. -inf if it would
+            leave a movement that somebody else asks for and nobody else shows.
         movement: By asking for a movement, shape (N, K + 1).
         focus: By asking for it to be about a place, shape (N, C).
         shown: Whether somebody else does the movement, shape (N, K + 1).
-        mistake: Price of doing something else than what is asked for.
-        irrelevance: Price of doing none of the movements.
+        mistake: Price of doing a movement when something else is asked for, shape (N, K + 1).
+        irrelevance: Price of doing none of the movements, shape (N,).
     """
 
     done: Array
     movement: Array
     focus: Array
     shown: NDArray[np.bool_]
-    mistake: float
-    irrelevance: float
+    mistake: Array
+    irrelevance: Array
 
     @property
     def meant(self) -> Array:
         """Gain by doing what is asked for, shape (N, K + 1, C)."""
         return np.asarray(self.done + self.movement[:, :, None] + self.focus[:, None])
+
+    @property
+    def mistaken(self) -> Array:
+        """Gain by doing something else than what is asked for, without that of asking, shape (N, K + 1, C)."""
+        return np.asarray(self.done - self.mistake[:, :, None])
 
     @property
     def askable(self) -> Array:
@@ -143,8 +149,8 @@ class Objective:
         self._everyone = np.arange(self.count)
 
     def start(self, hypothesis: Hypothesis) -> None:
-        """Take up a hypothesis."""
-        self.hypothesis = known = hypothesis.compact()
+        """Take up a copy of a hypothesis."""
+        self.hypothesis = known = Hypothesis(*(values.copy() for values in hypothesis.compact()))
         self._done_sums = np.zeros(
             (self.count, int(max(known.movement.max(), known.asked_movement.max())) + 2, self.places)
         )
@@ -201,12 +207,18 @@ class Objective:
         others, sums = member.sum(axis=0) - member, (own @ member) / 2 - member * own[:, None]
         drawn = _weight(others + 1)[:, :, None] * (sums[:, :, None] + self._done_sums)
         drawn -= (_weight(others) * sums)[:, :, None]
-        price = self._price(others + member * 0, joined=True)
+        mistakes, before = done & ~known.meant, (others > 0).sum(axis=1)[:, None]
+        choice = self._choice(before + (others == 0))
+        # A movement more is a choice more for all who do something else than they ask for.
+        price = self._price(others) + (mistakes.sum() - mistakes)[:, None] * (choice - self._choice(before))
+        asking = _members(known.asked_movement, member.shape[1])
+        alone = (member * (others == 0) * (asking.sum(axis=0) - asking)).any(axis=1)
+        price += np.where(alone[:, None] & (member == 0), np.inf, 0.0)
         gain = drawn + self._place[:, None] - price[:, :, None]
         movement = self._joining(self._movement_sums, known.asked_movement)
         focus = self._joining(self._focus_sums, known.asked_focus)
-        choices = np.log(max(1, int((member.sum(axis=0) > 0).sum())) * self.places)
-        return Scores(gain, movement, focus, others > 0, assumed.mistake_price + choices, assumed.irrelevance_price)
+        irrelevance = np.where(alone, np.inf, assumed.irrelevance_price)
+        return Scores(gain, movement, focus, others > 0, assumed.mistake_price + choice, irrelevance)
 
     def _joining(self, sums: Array, meaning: Indices) -> Array:
         """Gain of each sign by each meaning, given all others, shape (N, M)."""
@@ -215,7 +227,11 @@ class Objective:
         others, rest = member.sum(axis=0) - member, (own @ member) / 2 - member * own[:, None]
         return np.asarray(_weight(others + 1) * (rest + sums) - _weight(others) * rest)
 
-    def _price(self, sizes: Array, joined: bool) -> Array:
+    def _choice(self, movements: NDArray[np.int64] | int) -> Array:
+        """Price of the choice what to do by mistake, among so many movements."""
+        return np.asarray(np.log(np.maximum(movements, 1) * self.places))
+
+    def _price(self, sizes: Array) -> Array:
         """Price of joining movements, shape (N, K + 1), over leaving them as they are; ``sizes`` without the joiner."""
         before = (sizes > 0).sum(axis=1)[:, None]
         squares, total = (sizes**2).sum(axis=1)[:, None], sizes.sum(axis=1)[:, None]
@@ -238,7 +254,7 @@ class Objective:
         total -= assumed.movement_price * len(sizes)
         total -= assumed.imbalance_price * float(_imbalance(len(sizes), (sizes**2).sum(), sizes.sum()))
         mistakes = int((done & ~known.meant).sum())
-        total -= (assumed.mistake_price + np.log(max(1, len(sizes)) * self.places)) * mistakes
+        total -= (assumed.mistake_price + self._choice(len(sizes))) * mistakes
         return float(total - assumed.irrelevance_price * (~done).sum())
 
 

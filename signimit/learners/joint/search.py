@@ -70,27 +70,24 @@ def search(objective: Objective, starts: list[Hypothesis]) -> tuple[float, Hypot
     """Return the highest objective that is reached from any start, nats, and the hypothesis."""
     ranked = []
     for start in starts:
-        objective.start(_copy(start))
+        objective.start(start)
         ranked.append(objective.value())
     chosen = np.argsort(-np.array(ranked), kind="stable")[:_SETTLED]
     found = [(_settle(objective, starts[i]), objective.hypothesis) for i in chosen]
     return max(found, key=lambda end: end[0])
 
 
-def _copy(hypothesis: Hypothesis) -> Hypothesis:
-    return Hypothesis(*(values.copy() for values in hypothesis))
-
-
 def _settle(objective: Objective, start: Hypothesis) -> float:
     """Move one demonstration after another to where it fits best, the most urgent first, until none wants to move."""
-    objective.start(_copy(start))
+    objective.start(start)
     everyone = np.arange(objective.count)
     for _ in range(_MOVES * objective.count):
         scores, known = objective.scores(), objective.hypothesis
         done = np.where(
             known.movement == NOTHING,
             -scores.irrelevance,
-            scores.done[everyone, known.movement, known.place] - scores.mistake * ~known.meant,
+            scores.done[everyone, known.movement, known.place]
+            - scores.mistake[everyone, known.movement] * ~known.meant,
         )
         askable = scores.shown[everyone, known.asked_movement] | (known.movement == known.asked_movement)
         asked = np.where(askable, scores.movement[everyone, known.asked_movement], -np.inf)
@@ -107,13 +104,13 @@ def best_choices(scores: Scores) -> Array:
     """Return the best gains, shape (N, 3): doing what is asked for, doing something else, being beside the point."""
     count = len(scores.done)
     asked = scores.askable.max(axis=1) + scores.focus.max(axis=1)
-    mistaken = scores.done.reshape(count, -1).max(axis=1) + asked - scores.mistake
+    mistaken = scores.mistaken.reshape(count, -1).max(axis=1) + asked
     return np.column_stack([scores.meant.reshape(count, -1).max(axis=1), mistaken, asked - scores.irrelevance])
 
 
 def _choose(scores: Scores, member: int, choice: int) -> tuple[int, int, int, int]:
     """Return what a demonstration does and asks for by one of the three choices."""
-    gain = scores.meant[member] if choice == 0 else scores.done[member]
+    gain = scores.meant[member] if choice == 0 else scores.mistaken[member]
     movement, place = (int(i) for i in np.unravel_index(int(gain.argmax()), gain.shape))
     if choice == 0:
         return movement, place, movement, place

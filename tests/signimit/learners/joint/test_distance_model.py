@@ -1,4 +1,4 @@
-"""Distances as evidence: bounded, monotone, and worked by hand."""
+"""Distances of signs as evidence: bounded, monotone, and worked by hand."""
 
 from dataclasses import replace
 
@@ -8,16 +8,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import norm
 
-from signimit.learners.joint.distance_model import DRAWINGS, SIGNS, DistanceModel
+from signimit.learners.joint.distance_model import SIGNS, DistanceModel
 
-MODELS = pytest.mark.parametrize("model", [DRAWINGS, SIGNS], ids=["drawings", "signs"])
+AKIN = replace(SIGNS, akin_share=0.2, akin_mean=-0.6, akin_spread=0.15)
+MODELS = pytest.mark.parametrize("model", [SIGNS, AKIN], ids=["signs", "akin"])
 HAND = DistanceModel(
     equal_mean=0.0, equal_mean_spread=1.0, equal_spread=1.0, other_mean=2.0, other_spread=1.0, odd_share=1e-9
 )
+properties = settings(deadline=None, derandomize=True, max_examples=30)
 
 
 @MODELS
-@settings(deadline=None, derandomize=True, max_examples=30)
+@properties
 @given(mean=st.floats(-2.5, 0.5))
 def test_farther_is_never_more_equal(model: DistanceModel, mean: float) -> None:
     ratios = model.log_ratios(np.exp(np.linspace(-6, 4, 400)), mean)
@@ -25,7 +27,7 @@ def test_farther_is_never_more_equal(model: DistanceModel, mean: float) -> None:
 
 
 @MODELS
-@settings(deadline=None, derandomize=True, max_examples=30)
+@properties
 @given(mean=st.floats(-2.5, 0.5))
 def test_no_distance_says_more_than_odd_ones_and_chance_allow(model: DistanceModel, mean: float) -> None:
     ratios = model.log_ratios(np.array([0.0, 1e-12, 0.1, 1.0, 10.0, 1e12]), mean)
@@ -38,7 +40,7 @@ def test_no_distance_says_more_than_odd_ones_and_chance_allow(model: DistanceMod
 def test_typical_equals_speak_for_and_typical_others_against(model: DistanceModel) -> None:
     equal, other = model.log_ratios(np.exp([model.equal_mean, model.other_mean]), model.equal_mean)
     assert equal > 1
-    assert other < -1
+    assert other < -0.9
 
 
 def test_the_ratio_of_two_normal_densities_is_that_of_the_hand() -> None:
@@ -49,7 +51,7 @@ def test_the_ratio_of_two_normal_densities_is_that_of_the_hand() -> None:
 
 
 @MODELS
-@settings(deadline=None, derandomize=True, max_examples=30)
+@properties
 @given(mean=st.floats(-2.5, 0.5), seed=st.integers(0, 10_000))
 def test_ratios_are_those_of_the_densities(model: DistanceModel, mean: float, seed: int) -> None:
     """Two mixtures of normal densities of the logarithm, which is held between the typical equal and other."""
@@ -61,21 +63,3 @@ def test_ratios_are_those_of_the_densities(model: DistanceModel, mean: float, se
     odd, chance = model.odd_share, model.chance_share
     expected = np.log((1 - odd) * equal + odd * other) - np.log((1 - chance) * other + chance * equal)
     np.testing.assert_allclose(model.log_ratios(distances, mean), expected, atol=1e-5)
-
-
-def test_the_scale_of_a_session_lies_between_what_was_expected_and_what_was_seen() -> None:
-    """The lower quartile of n equal logarithms x, moved by 0.674 spreads, weighs n against the prior's 1."""
-    assert HAND.posterior_mean(np.array([]), 5) == 0
-    assert HAND.posterior_mean(np.exp([1.0, 1.0]), 2) == pytest.approx(2 * 1.674 / 3)
-    assert HAND.posterior_mean(np.exp(np.full(100, 1.0)), 2) == pytest.approx(2 * 1.674 / 3)  # N things, no more news
-
-
-def test_pairs_of_two_movements_taken_for_one_do_not_move_the_scale_much() -> None:
-    equals, across = np.exp(np.full(40, -1.0)), np.exp(np.full(60, 0.5))
-    alone, mixed = (DRAWINGS.posterior_mean(d, 12) for d in (equals, np.concatenate([equals, across])))
-    assert mixed == pytest.approx(alone)
-
-
-def test_an_unexpected_scale_costs() -> None:
-    assert HAND.log_prior(0.0) == 0
-    assert HAND.log_prior(-2.0) == HAND.log_prior(2.0) == -2

@@ -1,4 +1,4 @@
-"""The objective against plain loops, and the search against trying everything."""
+"""The search never lowers the objective, ends where nobody wants to move, and finds what is planted."""
 
 from itertools import product
 
@@ -8,161 +8,195 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from signimit.learners.joint.search import (
-    IMBALANCE_PRICE,
-    MOVEMENT_PRICE,
-    PairEvidence,
-    conditional_scores,
-    first_guesses,
-    improve_explanation,
-    merge_groups,
-    score_explanation,
-)
+from signimit import WordOrder
+from signimit.learners.joint.measurements import Measurements
+from signimit.learners.joint.objective import NOTHING, PEOPLE, Hypothesis, Objective
+from signimit.learners.joint.search import best_choices, best_partition_value, first_hypotheses, search
 
+Array = NDArray[np.float64]
 Labels = NDArray[np.int64]
 properties = settings(deadline=None, derandomize=True, max_examples=30)
-sizes = (st.integers(1, 6), st.integers(1, 3), st.integers(0, 10_000))
+sessions = st.tuples(st.integers(1, 12), st.integers(1, 3), st.integers(0, 10_000))
+ORDER = WordOrder(0, 1)
 
 
-def random_evidence(count: int, frames: int, seed: int) -> PairEvidence:
+def random_objective(count: int, places: int, seed: int) -> tuple[Objective, list[Hypothesis]]:
+    """Evidence that agrees with nothing, and all starts for it."""
     rng = np.random.default_rng(seed)
-    drawing = rng.normal(0, 3, (count, count, frames, frames))
-    drawing = drawing + drawing.transpose(1, 0, 3, 2)
-    words = rng.normal(0, 2, (2, count, count))
-    words = words + words.transpose(0, 2, 1)
-    nobody = np.eye(count, dtype=bool)
-    drawing[nobody] = words[:, nobody] = 0.0
-    return PairEvidence(drawing, words[0], words[1], rng.normal(0, 2, (count, frames)))
+    unlike, words = rng.normal(-1, 4, (count, count)), rng.normal(0, 3, (2, count, count))
+    unlike, words = unlike + unlike.T, words + words.transpose(0, 2, 1)
+    words[:, np.arange(count), np.arange(count)] = 0.0
+    offsets, place = rng.normal(0, 0.4, (count, places, 2)), rng.normal(0, 3, (count, places))
+    seen = Measurements(unlike, np.zeros_like(words), offsets, place)
+    return Objective(seen, words, ORDER, PEOPLE), first_hypotheses(seen, words[ORDER.movement], PEOPLE)
 
 
-def random_answer(count: int, frames: int, seed: int) -> tuple[Labels, Labels]:
-    rng = np.random.default_rng(seed)
-    labels = np.unique(rng.integers(0, 3, count), return_inverse=True)[1].astype(np.int64)
-    return labels, rng.integers(0, frames, count)
+def planted(done: Labels, place: Labels, asked: Labels, focus: Labels) -> tuple[Objective, list[Hypothesis]]:
+    """Drawings of three objects' scenes that lie at their places, and words that say what is asked for."""
+    count = len(done)
+    unlike = np.where(done[:, None] == done, -5.0, 3.0)
+    unlike[done == NOTHING] = unlike[:, done == NOTHING] = 3.0
+    offsets = np.random.default_rng(0).uniform(2, 9, (count, 3, 2))
+    offsets[np.arange(count), place] = 0.0
+    evidence = np.where(np.arange(3) == place[:, None], 2.0, -4.0)
+    evidence[done == NOTHING] = -4.0
+    words = np.stack([np.where(meaning[:, None] == meaning, 3.0, -3.0) for meaning in (focus, asked)])
+    words[:, np.arange(count), np.arange(count)] = 0.0
+    seen = Measurements(unlike, np.zeros_like(words), offsets, evidence)
+    return Objective(seen, words, ORDER, PEOPLE), first_hypotheses(seen, words[ORDER.movement], PEOPLE)
 
 
-def slow_score(evidence: PairEvidence, labels: Labels, focus: Labels) -> float:
-    """The sum as the module's docstring says it."""
-    members = [labels.tolist().count(m) for m in set(labels.tolist())]
-    even = len(labels) / len(members)
-    total = -MOVEMENT_PRICE * len(members) - IMBALANCE_PRICE * sum((n - even) ** 2 / even for n in members)
-    for t in range(len(labels)):
-        total += evidence.place[t, focus[t]]
-        for k in range(t):
-            if labels[t] == labels[k]:
-                total += evidence.drawing[t, k, focus[t], focus[k]] + evidence.movement_word[t, k]
-            if focus[t] == focus[k]:
-                total += evidence.focus_word[t, k]
-    return float(total)
+class Watched(Objective):
+    """An objective that notes its value before and after each move."""
+
+    def __init__(self, objective: Objective) -> None:
+        self.__dict__.update(objective.__dict__)
+        self.moves: list[tuple[float, float]] = []
+
+    def move(self, member: int, movement: int, place: int, asked_movement: int, asked_focus: int) -> None:
+        before = self.value()
+        super().move(member, movement, place, asked_movement, asked_focus)
+        self.moves.append((before, self.value()))
 
 
-def planted_evidence(labels: Labels, focus: Labels, frames: int) -> PairEvidence:
-    """Evidence of 3 nats for what is true and against what is not."""
-    one_movement = np.where(labels[:, None] == labels[None], 3.0, -3.0)
-    drawing = np.full((len(labels), len(labels), frames, frames), -3.0)
-    for t, k in product(range(len(labels)), repeat=2):
-        drawing[t, k, focus[t], focus[k]] = one_movement[t, k]
-    one_focus = np.where(focus[:, None] == focus[None], 3.0, -3.0)
-    nobody = np.eye(len(labels), dtype=bool)
-    drawing[nobody] = one_movement[nobody] = one_focus[nobody] = 0.0
-    return PairEvidence(drawing, one_movement, one_focus, np.zeros((len(labels), frames)))
-
-
-@properties
-@given(*sizes)
-def test_the_objective_is_the_sum_over_pairs(count: int, frames: int, seed: int) -> None:
-    evidence, (labels, focus) = random_evidence(count, frames, seed), random_answer(count, frames, seed)
-    assert score_explanation(evidence, labels, focus) == pytest.approx(slow_score(evidence, labels, focus))
+def everything(known: Hypothesis) -> list[list[int]]:
+    return [values.tolist() for values in known]
 
 
 @properties
-@given(*sizes)
-def test_conditional_scores_are_differences_of_the_objective(count: int, frames: int, seed: int) -> None:
-    evidence, (labels, focus) = random_evidence(count, frames, seed), random_answer(count, frames, seed)
-    scores = conditional_scores(evidence, labels, focus)
-    here = slow_score(evidence, labels, focus)
-    for t, m, i in np.ndindex(scores.shape):
-        moved, turned = labels.copy(), focus.copy()
-        moved[t], turned[t] = m, i
-        gain = slow_score(evidence, moved, turned) - here
-        assert scores[t, m, i] - scores[t, labels[t], focus[t]] == pytest.approx(gain, abs=1e-9)
+@given(sessions)
+def test_no_move_of_a_search_lowers_the_objective(session: tuple[int, int, int]) -> None:
+    objective, starts = random_objective(*session)
+    _, found = search(watched := Watched(objective), starts)
+    assert all(after > before for before, after in watched.moves)
+    assert set(found.asked_movement) <= set(found.movement)  # what is asked for is shown
 
 
 @properties
-@given(*sizes)
-def test_a_relabelled_copy_is_never_preferred(count: int, frames: int, seed: int) -> None:
-    evidence, (labels, focus) = random_evidence(count, frames, seed), random_answer(count, frames, seed)
-    names = np.random.default_rng(seed).permutation(count + 3)
-    ours, theirs = (score_explanation(evidence, which, focus) for which in (labels, names[labels]))
-    assert ours == theirs
+@given(sessions)
+def test_what_is_found_is_no_worse_than_any_start_and_nobody_wants_to_move(session: tuple[int, int, int]) -> None:
+    objective, starts = random_objective(*session)
+    ranked = []
+    for hypothesis in starts:
+        objective.start(hypothesis)
+        ranked.append(objective.value())
+    before = [everything(hypothesis) for hypothesis in starts]
+    value, found = search(objective, starts)
+    assert [everything(hypothesis) for hypothesis in starts] == before
+    assert value >= max(ranked) - 1e-9
+    objective.start(found)
+    assert objective.value() == pytest.approx(value)
+    for t in range(session[0]):
+        for choice in product(range(found.movement.max() + 1), range(session[1])):
+            other = Hypothesis(*(values.copy() for values in found))
+            other.movement[t] = other.asked_movement[t] = choice[0]
+            other.place[t] = other.asked_focus[t] = choice[1]
+            objective.start(other)
+            assert objective.value() <= value + 1e-6
 
 
 @properties
-@given(*sizes)
-def test_the_search_ends_where_no_single_change_helps_and_never_below_its_start(
-    count: int, frames: int, seed: int
-) -> None:
-    evidence, (labels, focus) = random_evidence(count, frames, seed), random_answer(count, frames, seed)
-    before = (labels.copy(), focus.copy())
-    found = improve_explanation(evidence, labels, focus)
-    np.testing.assert_array_equal((labels, focus), before)
-    assert found.score >= slow_score(evidence, labels, focus) - 1e-9
-    assert found.score == pytest.approx(slow_score(evidence, found.labels, found.focus))
-    scores = conditional_scores(evidence, found.labels, found.focus)
-    best = scores.reshape(count, -1).max(axis=1)
-    assert (best <= scores[np.arange(count), found.labels, found.focus] + 1e-9).all()
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_what_is_planted_is_found_and_is_the_best_of_all_answers(seed: int) -> None:
-    labels, focus = random_answer(4, 2, seed)
-    evidence = planted_evidence(labels, focus, 2)
-    answers = product(product(range(4), repeat=4), product(range(2), repeat=4))
-    best = max(slow_score(evidence, np.array(m), np.array(i)) for m, i in answers)
-    found = [improve_explanation(evidence, *guess) for guess in first_guesses(evidence)]
-    assert max(f.score for f in found) == pytest.approx(best)
-
-
-def test_groups_merge_as_long_as_it_pays() -> None:
-    truth = np.array([0, 1, 0, 2, 1, 0])
-    affinity = np.where(truth[:, None] == truth[None], 4.0, -4.0)
-    np.testing.assert_array_equal(merge_groups(affinity), truth)
-    np.testing.assert_array_equal(affinity[0, 1], -4.0)
-
-
-def slow_groups(affinity: NDArray[np.float64]) -> list[list[int]]:
-    """Merge the pair of groups whose pairs sum to most, the first of several, while that pays."""
-    groups = [[t] for t in range(len(affinity))]
-    while len(groups) > 1:
-        gains = {(a, b): affinity[np.ix_(groups[a], groups[b])].sum() for a in range(len(groups)) for b in range(a)}
-        a, b = min(gains, key=lambda pair: (-gains[pair], groups[pair[1]][0], groups[pair[0]][0]))
-        if gains[a, b] <= -MOVEMENT_PRICE:
-            break
-        groups[b] += groups.pop(a)
-    return groups
+@given(sessions)
+def test_names_of_movements_are_nothing(session: tuple[int, int, int]) -> None:
+    objective, starts = random_objective(*session)
+    for hypothesis in starts:
+        names = np.append(np.random.default_rng(session[2]).permutation(session[0] + 5), NOTHING)
+        renamed = hypothesis._replace(movement=names[hypothesis.movement], asked_movement=names[hypothesis.movement])
+        objective.start(hypothesis)
+        first = objective.value()
+        objective.start(renamed)
+        assert objective.value() == first
+        assert everything(objective.hypothesis) == everything(hypothesis.compact())
 
 
 @properties
-@given(st.integers(1, 12), st.sampled_from([0, 1, 9]), st.integers(0, 10_000))
-def test_remembered_partners_lead_to_the_groups_of_plain_loops(count: int, decimals: int, seed: int) -> None:
-    """Rounded to whole numbers many pairs tie, and the first is merged."""
-    affinity = np.random.default_rng(seed).normal(-1, 3, (count, count)).round(decimals)
-    affinity = affinity + affinity.T
-    labels = merge_groups(affinity)
-    assert [np.flatnonzero(labels == m).tolist() for m in range(labels.max() + 1)] == [
-        sorted(group) for group in slow_groups(affinity)
-    ]
+@given(sessions)
+def test_sums_that_follow_the_moves_are_those_of_a_fresh_start(session: tuple[int, int, int]) -> None:
+    objective, starts = random_objective(*session)
+    rng = np.random.default_rng(session[2])
+    objective.start(starts[0])
+    for _ in range(6):
+        movements = int(objective.hypothesis.movement.max()) + 2
+        movement, place = int(rng.integers(-1, movements)), int(rng.integers(session[1]))
+        shown = objective.hypothesis.movement[objective.hypothesis.movement != NOTHING]
+        asked = int(rng.choice(shown)) if movement == NOTHING and len(shown) else max(movement, 0)
+        objective.move(int(rng.integers(session[0])), movement, place, asked, int(rng.integers(session[1])))
+        followed, scores = objective.value(), objective.scores()
+        known = objective.hypothesis
+        objective.start(known)
+        assert objective.value() == pytest.approx(followed)
+        order = list(dict.fromkeys(m for m in (*known.movement, *known.asked_movement) if m != NOTHING))
+        columns = [*order, scores.done.shape[1] - 1]
+        np.testing.assert_allclose(objective.scores().done, scores.done[:, columns], atol=1e-9)
+        np.testing.assert_allclose(objective.scores().movement, scores.movement[:, columns], atol=1e-9)
+        np.testing.assert_allclose(objective.scores().focus, scores.focus, atol=1e-9)
 
 
-def test_merging_saves_the_price_of_a_movement_and_no_more() -> None:
-    for evidence, together in ((-MOVEMENT_PRICE + 0.1, True), (-MOVEMENT_PRICE - 0.1, False)):
-        labels = merge_groups(np.array([[0.0, evidence], [evidence, 0.0]]))
-        assert (labels[0] == labels[1]) == together
+DONE = np.array([0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2])
+PLACE = np.array([0, 0, 0, 1, 1, 1, 2, 2, 2, 0, 1, 2])
 
 
-def test_one_demonstration_is_one_movement() -> None:
-    assert merge_groups(np.zeros((1, 1))).tolist() == [0]
-    evidence = random_evidence(1, 3, 0)
-    found = improve_explanation(evidence, *first_guesses(evidence)[0])
-    assert found.labels.tolist() == [0]
-    assert found.focus.tolist() == [int(evidence.place[0].argmax())]
+@pytest.mark.parametrize("kind", ["sound", "another movement", "another object", "beside the point"])
+def test_what_is_planted_is_found(kind: str) -> None:
+    done, place, asked, focus = DONE.copy(), PLACE.copy(), DONE.copy(), PLACE.copy()
+    if kind == "another movement":
+        asked[4] = 2
+    if kind == "another object":
+        focus[4] = 0
+    if kind == "beside the point":
+        done[4] = NOTHING
+    objective, starts = planted(done, place, asked, focus)
+    _, found = search(objective, starts)
+    assert found.movement.tolist() == done.tolist()
+    assert found.asked_movement.tolist() == asked.tolist()
+    assert found.asked_focus.tolist() == focus.tolist()
+    on_the_table = done != NOTHING
+    assert found.place[on_the_table].tolist() == place[on_the_table].tolist()
+    wrong = np.flatnonzero(~found.meant)
+    assert wrong.tolist() == ([] if kind == "sound" else [4])
+
+
+def test_what_is_found_in_three_demonstrations_is_the_best_of_all_answers() -> None:
+    for seed in range(3):
+        objective, starts = random_objective(3, 1, seed)
+        best, nowhere_else = -np.inf, np.zeros(3, dtype=np.int64)
+        for movement in product(range(-1, 3), repeat=3):
+            shown = sorted(set(movement) - {NOTHING})
+            for asked in product(shown, repeat=3):
+                objective.start(Hypothesis(np.array(movement), nowhere_else, np.array(asked), nowhere_else))
+                best = max(best, objective.value())
+        assert search(objective, starts)[0] == pytest.approx(best)
+
+
+def test_starts_are_one_to_twelve_movements_each_once_and_one_demonstration_has_one() -> None:
+    rng = np.random.default_rng(0)
+    for count, most in ((1, 1), (2, 1), (5, 4), (20, 12)):
+        seen = Measurements(rng.normal(size=(count, count)), np.zeros((2, count, count)), *np.zeros((2, count, 3)))
+        seen = seen._replace(drawings=seen.drawings + seen.drawings.T, place_evidence=np.eye(3)[np.arange(count) % 3])
+        starts = first_hypotheses(seen, np.zeros((count, count)), PEOPLE)
+        assert {int(start.movement.max()) + 1 for start in starts} == set(range(1, most + 1))
+        assert len({tuple(start.movement) for start in starts}) == len(starts)
+        for start in starts:
+            assert start.meant.all()
+            assert start.place.tolist() == [t % 3 for t in range(count)]
+
+
+def test_a_choice_is_what_is_asked_for_or_something_else_or_beside_the_point() -> None:
+    objective, _ = planted(DONE, PLACE, DONE, PLACE)
+    objective.start(Hypothesis(DONE, PLACE, DONE, PLACE))
+    scores = objective.scores()
+    choices = best_choices(scores)
+    assert choices.shape == (12, 3)
+    assert (choices[:, 0] > choices[:, 1:].max(axis=1)).all()
+    # twelve who do what they ask for: one that did something else would lose 3 nats and the choice among 3 x 3
+    np.testing.assert_allclose(choices[:, 0] - choices[:, 1], 3 + np.log(9))
+
+
+def test_words_that_mean_nothing_are_divided_at_no_price() -> None:
+    kinds = np.array([0, 1, 0, 1, 1])
+    evidence = np.where(kinds[:, None] == kinds, 2.0, -3.0)
+    np.fill_diagonal(evidence, 0.0)
+    # two signs: 2 nats for their pair, weighted 2 / 2; three: 6 for their three pairs, weighted 2 / 3
+    assert best_partition_value(evidence) == pytest.approx(2 + 4)
+    assert best_partition_value(np.zeros((1, 1))) == 0
+    assert best_partition_value(-np.ones((4, 4)) + np.eye(4)) == 0  # none alike: each is its own
