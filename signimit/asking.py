@@ -14,7 +14,7 @@ from scipy.special import entr
 from signimit.demonstrations import DemonstrationSet
 from signimit.display import one_line
 from signimit.explanation import SUSPECT, known_belief
-from signimit.learners.base import Understanding
+from signimit.learners.base import Asked, Understanding
 from signimit.paths import half_size
 from signimit.segmentation import find_drawing
 
@@ -47,10 +47,9 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
     """Choose the pair of meanings and the scene with the largest expected gain.
 
     What a pair can teach is the doubt about each of its two words, in nats; that the pair is new: 1 where it was never
-    asked for and shown, less the more often it was; and the suspicion that whoever was asked for it did something else:
-    `_SUSPICION` where no demonstration of the pair can be trusted, less the more often it was asked for in vain.
-    All of it counts as far as the scene tells the object from its neighbours. Words are copied from trusted
-    demonstrations, the most doubtful among them, so that what was taken for one and is two comes apart.
+    asked for and shown, less the more often it was; and the suspicion that what was shown last, when it was asked for,
+    was not meant. All of it counts as far as the scene tells the object from its neighbours. Words are copied from
+    trusted demonstrations, the most doubtful among them, so that what was taken for one and is two comes apart.
 
     Args:
         demonstrations: What was seen, N.
@@ -68,14 +67,11 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
     about_movement = entr(belief.movement_probability).sum(axis=1)
     about_focus = entr(belief.focus_probability).sum(axis=1)
     shown = np.zeros((int(understanding.labels.max()) + 1, scenes.shape[1]))
-    times, most = shown.copy(), shown.copy()
     np.add.at(shown, asked, trust)
-    np.add.at(times, asked, 1.0)
-    np.maximum.at(most, asked, trust)
     to_movement = _most_doubtful(about_movement, np.where(trusted, asked.movement, -1), shown.shape[0])
     to_focus = _most_doubtful(about_focus, np.where(trusted, asked.focus, -1), shown.shape[1])
     lesson = 1.0 / (1.0 + shown) + about_movement[to_movement][:, None] + about_focus[to_focus]
-    lesson += _SUSPICION * (most < SUSPECT) * (1.0 - most) * (times > 0) / np.maximum(times, 1.0)
+    lesson += _SUSPICION * _open_suspicion(asked, trust, shown.shape)
     lesson[to_movement < 0], lesson[:, to_focus < 0] = 0.0, 0.0  # no trusted demonstration has that word
     unit = float(np.median([half_size(d.hand[find_drawing(d.hand, d.times)]) for d in demonstrations]))
     gains = lesson[None] * _clarity(scenes, _CLEAR * unit)[:, None]
@@ -84,6 +80,19 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
     copied[order.movement] = int(to_movement[movement])
     signs = tuple(demonstrations[t].signs[word] for word, t in enumerate(copied))
     return Query(signs, tuple(copied), scene, movement, about, float(gains[scene, movement, about]))
+
+
+def _open_suspicion(asked: Asked, trust: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.float64]:
+    """Return for each pair how probably its latest demonstration was not meant, shape (K, O).
+
+    It is divided by how often in a row the pair was asked for in vain, so that nobody is asked the same for ever, and 0
+    for a pair that can be trusted, or was not asked for.
+    """
+    suspicion, in_vain = np.zeros(shape), np.zeros(shape)
+    for movement, focus, meant in zip(*asked, trust, strict=True):
+        in_vain[movement, focus] = 0 if meant >= SUSPECT else in_vain[movement, focus] + 1
+        suspicion[movement, focus] = (1.0 - meant) / in_vain[movement, focus] if meant < SUSPECT else 0.0
+    return suspicion
 
 
 def _most_doubtful(doubt: NDArray[np.float64], meaning: NDArray[np.int64], count: int) -> NDArray[np.intp]:

@@ -123,9 +123,20 @@ def test_a_suspicion_comes_before_a_pair_that_nobody_has_shown() -> None:
 
 
 def test_a_suspicion_is_resolved_once_the_pair_was_shown_as_it_was_meant() -> None:
-    query = ask([0, 0, 1, 1], [0, 1, 1, 1], [CLEAR * 10], asked=Asked(np.array([0, 0, 1, 1]), np.array([0, 1, 1, 1])),
-                trust=[1, 1, 0.1, 1])  # fmt: skip
+    asked = Asked(np.array([0, 0, 1, 1]), np.array([0, 1, 1, 1]))
+    after, before = (
+        ask([0, 0, 1, 1], [0, 1, 1, 1], [CLEAR * 10], asked=asked, trust=trust)
+        for trust in ([1, 1, 0.1, 1], [1, 1, 1, 0.1])
+    )
+    assert (after.movement, after.focus) == (1, 0)  # nobody has shown it
+    assert (before.movement, before.focus) == (1, 1)  # shown well before, not since
+
+
+def test_a_pair_that_was_asked_for_in_vain_is_asked_for_less_urgently() -> None:
+    asked = Asked(np.array([0, 0, 1, 1, 1]), np.array([0, 1, 1, 0, 0]))
+    query = ask([0, 0, 1, 0, 0], [0, 1, 1, 0, 0], [CLEAR * 10], asked=asked, trust=[1, 1, 1, 0.1, 0.1])
     assert (query.movement, query.focus) == (1, 0)
+    assert query.gain == pytest.approx(1 / 1.2 + 3 * 0.9 / 2)
 
 
 def test_where_nothing_is_trusted_it_asks_nevertheless() -> None:

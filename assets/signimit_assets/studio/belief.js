@@ -181,7 +181,7 @@ function chips(belief, members) {
 }
 
 /** What is doubted, and why; what is suspected can be drawn again here, or is kept as it is. */
-function doubtItem({ number, text, suspected }) {
+export function doubtItem({ number, text, suspected }) {
   if (!suspected) return make("li", { textContent: text });
   const redraw = button("Redraw", () => hooks.redraw(number), { "aria-label": `Redraw suspected demonstration ${number + 1}` });
   return make("li", {}, make("span", { textContent: `${text} Redraw it, or keep it as it is. ` }), redraw);

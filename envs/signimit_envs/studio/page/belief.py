@@ -21,7 +21,7 @@ def belief_json(model: ImitationModel) -> dict[str, Any]:
     """Return what a model of a method with probabilities has learned; numbers are rounded for the screen."""
     reasons, order = model.explain(), model.word_order
     asked = model.understanding.requests
-    order_text = word_order_text(model.understanding).replace(" word ", " sign ")
+    order_text = word_order_text(model.understanding).replace(" word names", " sign names")
     object_words = [
         {"object": i, "strokes": _signs_json(model, order.focus, asked.focus == i)}
         for i in range(model.demonstrations.objects.shape[1])
@@ -61,7 +61,7 @@ def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
     if not len(trust):
         reason = "as nobody has shown me that yet"
     else:
-        reason = "to be surer" if trust.max() >= SUSPECT else "again, as I doubt that what I was shown then was meant"
+        reason = "to be surer" if trust[-1] >= SUSPECT else "again, as I doubt that what I was shown then was meant"
     return {
         "text": f"Please make signs like {' and '.join(words)}: I think they ask for {asked}, and ask {reason}.",
         "request": {"movement": wish.movement, "focus": wish.focus},
