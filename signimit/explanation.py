@@ -135,14 +135,19 @@ def rank_word_orders(belief: Belief) -> tuple[tuple[WordOrder, float], ...]:
     return tuple((order, loss) for loss, order in ranked)
 
 
+def is_word_order_clear(understanding: Understanding) -> bool:
+    """Return whether every other word order explains less by at least `ORDER_DOUBT`; true without a belief."""
+    ranked = () if understanding.belief is None else rank_word_orders(understanding.belief)
+    return len(ranked) < 2 or ranked[1][1] >= ORDER_DOUBT
+
+
 def word_order_text(understanding: Understanding) -> str:
     """Say which word names what, or that it cannot be told yet: another word order explains nearly as much."""
     order = understanding.word_order
     names = f"the {ordinal(order.focus)} word names the object, the {ordinal(order.movement)} word names the movement."
-    ranked = () if understanding.belief is None else rank_word_orders(understanding.belief)
-    if len(ranked) > 1 and ranked[1][1] < ORDER_DOUBT:
-        return f"The word order cannot be told yet; so far it seems that {names}"
-    return names.capitalize()
+    if is_word_order_clear(understanding):
+        return names.capitalize()
+    return f"The word order cannot be told yet; so far it seems that {names}"
 
 
 def find_suspicions(understanding: Understanding) -> tuple[Suspicion, ...]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.asking import Query
-from signimit.explanation import SUSPECT, Reasons, object_name, ordinal, word_order_text
+from signimit.explanation import SUSPECT, Reasons, is_word_order_clear, object_name, ordinal
 from signimit.learning import ImitationModel
 from signimit.paths import resample_path
 from signimit.signs import normalised_sign
@@ -21,7 +21,11 @@ def belief_json(model: ImitationModel) -> dict[str, Any]:
     """Return what a model of a method with probabilities has learned; numbers are rounded for the screen."""
     reasons, order = model.explain(), model.word_order
     asked = model.understanding.requests
-    order_text = word_order_text(model.understanding).replace(" word names", " sign names")
+    order_text = f"the {ordinal(order.focus)} sign names the object, the {ordinal(order.movement)} the movement."
+    clear = is_word_order_clear(model.understanding)
+    order_text = (
+        order_text.capitalize() if clear else f"The word order cannot be told yet; so far it seems that {order_text}"
+    )
     object_words = [
         {"object": i, "strokes": _signs_json(model, order.focus, asked.focus == i)}
         for i in range(model.demonstrations.objects.shape[1])
@@ -40,7 +44,7 @@ def belief_json(model: ImitationModel) -> dict[str, Any]:
         "focus": model.focus.tolist(),
         "focus_probability": _rounded(reasons.focus_probability),
         "movement_probability": _rounded(reasons.movement_probability),
-        "word_order": {"focus": order.focus, "movement": order.movement, "text": order_text},
+        "word_order": {"focus": order.focus, "movement": order.movement, "clear": clear, "text": order_text},
         "word_orders": [
             {"focus": other.focus, "movement": other.movement, "loss": round(loss, 2)}
             for other, loss in reasons.word_orders

@@ -91,5 +91,7 @@ def test_the_word_order_cannot_be_told_after_one_demonstration(history: History,
     first = replay_events([history.created, Demonstrated((history.shown[0],))])
     early = learn_session(first, None).belief
     assert early is not None
-    assert early["word_order"]["text"].startswith("The word order cannot be told yet")
-    assert belief["word_order"]["text"] == "The first sign names the object, the second sign names the movement."
+    assert not early["word_order"]["clear"]
+    assert early["word_order"]["text"].startswith("The word order cannot be told yet; so far it seems that the ")
+    assert belief["word_order"]["clear"]
+    assert belief["word_order"]["text"] == "The first sign names the object, the second the movement."
