@@ -69,6 +69,7 @@ mover         Who moves (the paper's demonstrator).
 Indices, files and messages about input count from 0; sentences about a model, figures and films count from 1.
 """
 
+from signimit.asking import Query
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.evaluation import Performance, count_turns, performed
 from signimit.exceptions import (
@@ -78,7 +79,7 @@ from signimit.exceptions import (
     SignimitError,
     UnknownNameError,
 )
-from signimit.explanation import Ambiguity, Query, Reasons
+from signimit.explanation import Ambiguity, Reasons, Suspicion
 from signimit.grouping import Grouping, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
 from signimit.learners.base import Belief, Understanding
@@ -100,7 +101,8 @@ __all__ = [  # noqa: RUF022 -- in the order of the paper
     # II-C
     "Grouping", "group_movements", "infer_focus", "WordOrder", "infer_word_order",
     # II and II-D: the whole
-    "learn", "ImitationModel", "Movement", "Response", "Understanding", "Belief", "Reasons", "Ambiguity", "Query",
+    "learn", "ImitationModel", "Movement", "Response", "Understanding", "Belief", "Reasons", "Ambiguity", "Suspicion",
+    "Query",
     # II-E
     "Policy", "PlacedPolicy", "POLICY_KINDS", "make_policy", "load_policy", "run_policy",
     # III: what was performed

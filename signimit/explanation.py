@@ -1,28 +1,28 @@
-"""What a learner understood and why, in words; and what to ask for next, so that the answer teaches most.
+"""What a learner understood and why, in words.
 
-The paper's imitator takes what it is shown; asking is among its future work (section IV).
+Whether a person meant what a demonstration shows, and how many signs there are, the paper asks itself in section IV.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import entr
 
-from signimit.demonstrations import DemonstrationSet
 from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
 from signimit.learners.base import Belief, Understanding
-from signimit.paths import half_size
-from signimit.segmentation import find_drawing
+from signimit.lexicon import Sign, find_lexicon
 
 DOUBT = 0.1  # an object or a movement that is at least this probable beside the chosen one makes it ambiguous
+SUSPECT = 0.5  # trust below which a demonstration is under suspicion: more probably it was not meant as it looks
+ORDER_DOUBT = 3.0  # nats within which another word order may be right as well; odds of 20 to 1
 OBJECT_NAMES = ("red", "green", "blue", "violet", "orange", "teal")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
-_CLEAR = 1.5  # median half sizes of a drawing; objects this far apart are told from each other by 1 - 1/e
+_COUNTS = ("no", "one", "two", "three", "four", "five", "six")
 
 
 @one_line
@@ -50,6 +50,43 @@ class Ambiguity(NamedTuple):
 
 
 @one_line
+class Suspicion(NamedTuple):
+    """A demonstration that was more probably not meant as it looks.
+
+    Attributes:
+        demonstration: Its index.
+        trust: Probability that it was meant as it looks.
+        asked: Movement and object that its words ask for.
+        shown: Movement and object that it shows; None if it shows none of the movements.
+        against: Trusted demonstrations that were asked for the same and showed it, which it contradicts.
+    """
+
+    demonstration: int
+    trust: float
+    asked: tuple[int, int]
+    shown: tuple[int, int] | None
+    against: tuple[int, ...]
+
+    def __str__(self) -> str:
+        """Return what it asks for, what it shows and what it would have to be to fit; counts from 1."""
+        (movement, thing), done = _named(*self.asked), "none of the movements"
+        asks = f"Demonstration {self.demonstration + 1} asks for {movement} about {thing}"
+        as_others = f", as {_demonstrations(self.against)} do{'es' * (len(self.against) == 1)}" if self.against else ""
+        if self.shown is None:
+            return f"{asks} but shows {done}. It would fit if it showed that movement{as_others}."
+        shown, other = _named(*self.shown)
+        if self.shown == self.asked:
+            return f"{asks} and seems to show it, but was meant so with {self.trust:.0%} only."
+        if self.shown[1] == self.asked[1]:
+            done, fit, instead = f"{shown} about it", f"showed {movement}", shown
+        elif self.shown[0] == self.asked[0]:
+            done, fit, instead = f"it about {other}", f"were about {thing}", other
+        else:
+            done, fit, instead = f"{shown} about {other}", "showed what it asks for", "that"
+        return f"{asks} but shows {done}. It would fit if it {fit}{as_others}, or asked for {instead}."
+
+
+@one_line
 class Reasons(NamedTuple):
     """Why a model understood what it did; printing it says it in words.
 
@@ -58,6 +95,9 @@ class Reasons(NamedTuple):
         movement_probability: Of each movement found, and last of none of them, shape (N, K + 1).
         ambiguous: Demonstrations whose object is in doubt.
         unsure_movements: Indices of demonstrations whose movement is in doubt.
+        suspicions: Demonstrations that were more probably not meant as they look.
+        signs: The signs that were found, each with its meaning; several of one meaning are ways of writing it.
+        idle_words: Places in the utterance, from 0, of words that mean nothing.
         word_orders: All word orders, the best first, each with how much less it explains than the best, nats.
         text: The same in words, which count from 1.
     """
@@ -66,33 +106,15 @@ class Reasons(NamedTuple):
     movement_probability: NDArray[np.float64]
     ambiguous: tuple[Ambiguity, ...]
     unsure_movements: tuple[int, ...]
+    suspicions: tuple[Suspicion, ...]
+    signs: tuple[Sign, ...]
+    idle_words: tuple[int, ...]
     word_orders: tuple[tuple[WordOrder, float], ...]
     text: str
 
     def __str__(self) -> str:
         """Return the text."""
         return self.text
-
-
-@one_line
-class Query(NamedTuple):
-    """An utterance to ask with, made of signs that were seen, and where.
-
-    Attributes:
-        signs: The W signs in the order in which to make them, each (T_s, 2): copies of signs that were seen.
-        copied: For each sign the demonstration it is copied from.
-        scene: Number of the scene to ask in.
-        movement: What the learner believes that the signs ask for, an index of ``model.movements``.
-        focus: The object that it believes they ask for.
-        gain: How much the answer is expected to teach, no unit: comparable among queries to one model only.
-    """
-
-    signs: tuple[NDArray[np.float64], ...]
-    copied: tuple[int, ...]
-    scene: int
-    movement: int
-    focus: int
-    gain: float
 
 
 def object_name(index: int) -> str:
@@ -103,6 +125,51 @@ def object_name(index: int) -> str:
 def ordinal(position: int) -> str:
     """Return "first" for position 0, and so on."""
     return _ORDINALS[position] if position < len(_ORDINALS) else f"{position + 1}th"
+
+
+def rank_word_orders(belief: Belief) -> tuple[tuple[WordOrder, float], ...]:
+    """Return all word orders, the best first, each with how much less it explains than the best, nats."""
+    evidence = belief.word_order_evidence
+    best, possible = float(evidence.max()), np.argwhere(np.isfinite(evidence))
+    ranked = sorted((best - float(evidence[f, m]), WordOrder(int(f), int(m))) for f, m in possible)
+    return tuple((order, loss) for loss, order in ranked)
+
+
+def is_word_order_clear(understanding: Understanding) -> bool:
+    """Return whether every other word order explains less by at least `ORDER_DOUBT`; true without a belief."""
+    ranked = () if understanding.belief is None else rank_word_orders(understanding.belief)
+    return len(ranked) < 2 or ranked[1][1] >= ORDER_DOUBT
+
+
+def word_order_text(understanding: Understanding) -> str:
+    """Say which word names what, or that it cannot be told yet: another word order explains nearly as much."""
+    order = understanding.word_order
+    names = f"the {ordinal(order.focus)} word names the object, the {ordinal(order.movement)} word names the movement."
+    if is_word_order_clear(understanding):
+        return names.capitalize()
+    return f"The word order cannot be told yet; so far it seems that {names}"
+
+
+def find_suspicions(understanding: Understanding) -> tuple[Suspicion, ...]:
+    """Find the demonstrations whose trust is below `SUSPECT`, and those that they contradict."""
+    if understanding.trust is None:
+        return ()
+    (movement, focus), (labels, about) = understanding.requests, understanding[:2]
+    sound = (understanding.trust >= SUSPECT) & (labels == movement) & (about == focus)
+    found = []
+    for t in np.flatnonzero(understanding.trust < SUSPECT).tolist():
+        other_object_only = labels[t] == movement[t] and about[t] != focus[t]
+        kin = focus == focus[t] if other_object_only else movement == movement[t]
+        against = tuple(np.flatnonzero(sound & kin).tolist())
+        shown = None if labels[t] < 0 else (int(labels[t]), int(about[t]))
+        found.append(Suspicion(t, float(understanding.trust[t]), (int(movement[t]), int(focus[t])), shown, against))
+    return tuple(found)
+
+
+def find_idle_words(understanding: Understanding) -> tuple[int, ...]:
+    """Find the words, by their place in the utterance, that mean nothing; none without a belief."""
+    words = 0 if understanding.belief is None else len(understanding.belief.word_order_evidence)
+    return tuple(word for word in range(words) if word not in understanding.word_order)
 
 
 def summarise(understanding: Understanding, objects: int) -> str:
@@ -116,23 +183,33 @@ def summarise(understanding: Understanding, objects: int) -> str:
         Lines of text; demonstrations and movements are counted from 1, where their indices count from 0.
     """
     labels, focus, order = understanding[:3]
-    count = int(labels.max()) + 1
+    count, signs = int(labels.max()) + 1, find_lexicon(understanding)
     shown = "1 demonstration shows" if len(labels) == 1 else f"{len(labels)} demonstrations show"
     lines = [f"{shown} {count} movement{'s' * (count != 1)}."]
     for m in range(count):
         numbers = np.flatnonzero(labels == m).tolist()
         members = ", ".join(f"{t + 1} (about {object_name(int(focus[t]))})" for t in numbers)
         lines.append(f"  Movement {m + 1}: demonstration{'s' * (len(numbers) != 1)} {members}.")
-    lines.append(
-        f"The {ordinal(order.focus)} word names the object, the {ordinal(order.movement)} word names the movement."
-    )
-    meanings = [(order.focus, f"the {object_name(i)} object", focus == i) for i in range(objects)]
-    meanings += [(order.movement, f"movement {m + 1}", labels == m) for m in range(count)]
-    for word, meaning, shows_it in meanings:
-        numbers = (np.flatnonzero(shows_it) + 1).tolist()
-        named = f"demonstration{'s' * (len(numbers) != 1)} {', '.join(map(str, numbers))}"
-        seen = f"  Signs like the {ordinal(word)} of {named} mean {meaning}."
-        lines.append(seen if numbers else f"  No sign was seen for {meaning}.")
+    if (labels < 0).any():
+        lines.append(f"  None of them: {_demonstrations(np.flatnonzero(labels < 0).tolist())}.")
+    lines.append(word_order_text(understanding))
+    lines += [f"The {ordinal(word)} word means nothing." for word in find_idle_words(understanding)]
+    for_objects, for_movements = (sum(sign.role == role for sign in signs) for role in ("focus", "movement"))
+    found = f"{len(signs)} sign{'s' * (len(signs) != 1)}"
+    lines.append(f"There are {found}: {for_objects} for objects, {for_movements} for movements.")
+    meanings = [("focus", i, f"the {object_name(i)} object") for i in range(objects)]
+    meanings += [("movement", m, f"movement {m + 1}") for m in range(count)]
+    for role, number, meaning in meanings:
+        forms = [_demonstrations(s.exemplars) for s in signs if (s.role, s.meaning) == (role, number)]
+        word = ordinal(order.focus if role == "focus" else order.movement)
+        if len(forms) > 1:
+            ways = _COUNTS[len(forms)] if len(forms) < len(_COUNTS) else str(len(forms))
+            listed = "; and of ".join(forms)
+            lines.append(f"  {ways.capitalize()} ways of writing {meaning}: signs like the {word} of {listed}.")
+        elif forms:
+            lines.append(f"  Signs like the {word} of {forms[0]} mean {meaning}.")
+        else:
+            lines.append(f"  No sign was seen for {meaning}.")
     return "\n".join(lines)
 
 
@@ -146,83 +223,50 @@ def explain_understanding(understanding: Understanding, objects: NDArray[np.floa
     Raises:
         InvalidInputError: If the learner has no probabilities to tell.
     """
-    focus, movement, order_evidence = _known_belief(understanding)
+    belief = known_belief(understanding)
+    focus, movement, _ = belief
     ambiguous = []
-    for t in np.flatnonzero((focus >= DOUBT).sum(axis=1) > 1).tolist():
+    for t in np.flatnonzero(((focus >= DOUBT).sum(axis=1) > 1) & (understanding.labels >= 0)).tolist():
         likely = [int(i) for i in np.argsort(-focus[t], kind="stable") if focus[t, i] >= DOUBT]
         apart = float(np.linalg.norm(objects[t, likely[0]] - objects[t, likely[1]]))
         ambiguous.append(Ambiguity(t, tuple(likely), tuple(float(focus[t, i]) for i in likely), apart))
     unsure = tuple(np.flatnonzero((movement >= DOUBT).sum(axis=1) > 1).tolist())
-    best, possible = float(order_evidence.max()), np.argwhere(np.isfinite(order_evidence))
-    ranked = sorted((best - float(order_evidence[f, m]), WordOrder(int(f), int(m))) for f, m in possible)
+    ranked, suspicions = rank_word_orders(belief), find_suspicions(understanding)
     lines = [summarise(understanding, objects.shape[1])]
     if len(ranked) == 1:
         lines.append("With one word there is only one word order.")
     else:
-        loss, second = ranked[1]
+        second, loss = ranked[1]
         words = f"{ordinal(second.focus)} word the object and {ordinal(second.movement)} the movement"
         lines.append(f"The next best word order, {words}, explains {loss:.1f} nats less.")
+    lines += map(str, suspicions)
     lines += map(str, ambiguous)
-    names = [f"movement {m + 1}" for m in range(movement.shape[1] - 1)] + ["a new one"]
+    names = [f"movement {m + 1}" for m in range(movement.shape[1] - 1)] + ["none of them"]
     for t in unsure:
         named = [f"{name} {p:.0%}" for name, p in zip(names, movement[t], strict=True) if p >= DOUBT]
         lines.append(f"Demonstration {t + 1} may show {' or '.join(named)}.")
-    if not ambiguous and not unsure:
+    if not (ambiguous or unsure or suspicions):
         lines.append(f"No demonstration is in doubt: nothing else is as probable as {DOUBT:.0%}.")
-    orders = tuple((order, loss) for loss, order in ranked)
-    return Reasons(focus, movement, tuple(ambiguous), unsure, orders, "\n".join(lines))
+    signs, idle = find_lexicon(understanding), find_idle_words(understanding)
+    return Reasons(focus, movement, tuple(ambiguous), unsure, suspicions, signs, idle, ranked, "\n".join(lines))
 
 
-def choose_query(demonstrations: DemonstrationSet, understanding: Understanding, scenes: NDArray[np.float64]) -> Query:
-    """Choose the pair of meanings and the scene with the largest expected gain.
-
-    What a pair can teach is the doubt about each of its two words, in nats, and that the pair is new: 1 where it was
-    never seen, less the more often it was. All of it counts as far as the scene tells the object from its neighbours.
-    The words are copied from the most doubtful demonstrations, so that what was taken for one and is two comes apart.
-
-    Args:
-        demonstrations: What was seen, N.
-        understanding: With a belief, as the joint learner has.
-        scenes: Object positions of the scenes there are to choose from, shape (S, O, 2), m.
+def known_belief(understanding: Understanding) -> Belief:
+    """Return the belief of a learner.
 
     Raises:
-        InvalidInputError: If the learner has no probabilities to tell.
+        InvalidInputError: If it has no probabilities to tell.
     """
-    belief = _known_belief(understanding)
-    labels, focus, order = understanding[:3]
-    about_movement = entr(belief.movement_probability).sum(axis=1)
-    about_focus = entr(belief.focus_probability).sum(axis=1)
-    shown = np.zeros((int(labels.max()) + 1, scenes.shape[1]))
-    np.add.at(shown, (labels, focus), 1.0)
-    to_movement = _most_doubtful(about_movement, labels, shown.shape[0])
-    to_focus = _most_doubtful(about_focus, focus, shown.shape[1])
-    lesson = 1.0 / (1.0 + shown) + about_movement[to_movement][:, None] + about_focus[to_focus]
-    lesson[:, to_focus < 0] = 0.0  # no demonstration has the word for that object
-    unit = float(np.median([half_size(d.hand[find_drawing(d.hand, d.times)]) for d in demonstrations]))
-    gains = lesson[None] * _clarity(scenes, _CLEAR * unit)[:, None]
-    scene, movement, about = (int(i) for i in np.unravel_index(int(gains.argmax()), gains.shape))
-    copied = [int(to_focus[about])] * len(demonstrations[0].signs)
-    copied[order.movement] = int(to_movement[movement])
-    signs = tuple(demonstrations[t].signs[word] for word, t in enumerate(copied))
-    return Query(signs, tuple(copied), scene, movement, about, float(gains[scene, movement, about]))
-
-
-def _known_belief(understanding: Understanding) -> Belief:
     if understanding.belief is None:
         raise InvalidInputError("method", 'probabilities, which "joint" has', "a method without")
     return understanding.belief
 
 
-def _most_doubtful(doubt: NDArray[np.float64], meaning: NDArray[np.int64], count: int) -> NDArray[np.intp]:
-    """Return for each meaning its demonstration with most doubt, -1 where it has none, shape (count,)."""
-    chosen = np.full(count, -1, dtype=np.intp)
-    for t in np.argsort(doubt, kind="stable"):
-        chosen[meaning[t]] = t
-    return chosen
+def _named(movement: int, focus: int) -> tuple[str, str]:
+    """Name a movement, counted from 1, and an object."""
+    return f"movement {movement + 1}", f"the {object_name(focus)} object"
 
 
-def _clarity(scenes: NDArray[np.float64], length: float) -> NDArray[np.float64]:
-    """How well a drawing about each object can be told from one about its nearest neighbour, within [0, 1], (S, O)."""
-    apart = np.linalg.norm(scenes[:, :, None] - scenes[:, None], axis=-1)
-    apart[:, np.eye(scenes.shape[1], dtype=bool)] = np.inf
-    return np.asarray(-np.expm1(-((apart.min(axis=2) / length) ** 2)))
+def _demonstrations(numbers: Sequence[int]) -> str:
+    """Name demonstrations, counted from 1."""
+    return f"demonstration{'s' * (len(numbers) != 1)} {', '.join(str(t + 1) for t in numbers)}"

@@ -11,10 +11,11 @@ from typing import Any, NamedTuple, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from signimit.asking import Query, choose_query
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.display import one_line
 from signimit.exceptions import InvalidInputError, UnknownNameError
-from signimit.explanation import Query, Reasons, choose_query, explain_understanding, summarise
+from signimit.explanation import Reasons, explain_understanding, summarise
 from signimit.inference import WordOrder
 from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learners.base import SignReader, Understanding
@@ -241,7 +242,7 @@ class ImitationModel:
         return choose_query(self.demonstrations, self.understanding, places)
 
     def explain(self) -> Reasons:
-        """Say why: how sure each focus and movement is, what is ambiguous, what speaks for the word order.
+        """Say why: how sure each focus and movement is, what is under suspicion, what speaks for the word order.
 
         Raises:
             InvalidInputError: If the method has no probabilities to tell.

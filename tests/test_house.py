@@ -17,8 +17,9 @@ import signimit_envs
 
 SIMULATOR = {"mujoco", "mink", "gymnasium", "signimit_envs", "signimit_assets"}
 UNREACHED = ("signimit.plots", "signimit.io.formats", "signimit.benchmark", "signimit.__main__")
-LEARNS = ("learning", "learners", "explanation", "policies", "grouping", "inference", "similarity", "signs", "paths",
-          "demonstrations", "strokes", "evaluation", "io.archive", "io.safe_files")  # fmt: skip
+LEARNS = ("learning", "learners", "explanation", "asking", "lexicon", "policies", "grouping", "inference",
+          "similarity", "signs", "paths", "demonstrations", "strokes", "evaluation", "io.archive",
+          "io.safe_files")  # fmt: skip
 
 
 def find_modules() -> dict[str, Path]:

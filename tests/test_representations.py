@@ -70,6 +70,7 @@ def objects(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
     roots = [
         ours, theirs, people, env, signimit_envs.TabletopEnv(), recorder,
         si.Ambiguity(3, tuple(range(1000)), (0.5,) * 1000, 0.25),
+        si.Suspicion(3, 0.25, (0, 1), None, tuple(range(1000))),
         model.respond(shown[0].signs, scene), model.explain(), model.most_informative([scene]),
         si.group_movements(np.eye(4), rng=0), si.performed(shown[0].hand, scene, session.truth.templates),
         record_reproductions(model, session.commands[:1], 1.0, plan.language),

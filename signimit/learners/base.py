@@ -52,6 +52,7 @@ class Asked(NamedTuple):
     focus: NDArray[np.int64]
 
 
+@one_line
 class Understanding(NamedTuple):
     """Everything that was inferred.
 

@@ -14,6 +14,7 @@ from signimit.exceptions import MissingDependencyError
 from signimit.explanation import DOUBT, Reasons, object_name, ordinal
 from signimit.learning import ImitationModel, Movement
 from signimit.plots.panels import FRAME, View, draw_sign, find_view, object_colour
+from signimit.plots.paper import PATH_STYLES
 
 try:
     from matplotlib.figure import Figure
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import SubFigure
 
 _HATCHES = ("", "//", "..", "xx", "\\\\", "++")  # objects are told apart without their colours
+_NONE = "#e4e4e4"  # of a demonstration that is about no object
 
 
 def draw_explanation(model: ImitationModel) -> Figure:
@@ -45,36 +47,41 @@ def draw_explanation(model: ImitationModel) -> Figure:
 
 def _draw_beliefs(figure: SubFigure, model: ImitationModel, reasons: Reasons) -> None:
     """Draw a bar for each demonstration, sorted by the movement and object found; what is in doubt has a mark."""
-    order = np.lexsort((model.focus, model.labels))
+    order = np.lexsort((model.focus, model.labels, model.labels < 0))
     upper, lower = figure.subplots(2, 1, sharex=True)
     at = np.arange(len(order))
-    _stack(upper, reasons.focus_probability[order], [object_name(i) for i in range(reasons.focus_probability.shape[1])])
-    names = [f"movement {m + 1}" for m in range(len(model.movements))] + ["another"]
-    _stack(lower, reasons.movement_probability[order], names, grey=True)
+    objects = range(reasons.focus_probability.shape[1])
+    about = np.column_stack([reasons.focus_probability, np.zeros(len(order))])
+    about[model.focus < 0] = np.eye(len(objects) + 1)[-1]
+    with_none = len(objects) + bool((model.focus < 0).any())
+    names = [*map(object_name, objects), "none"][:with_none]
+    _stack(upper, about[order, :with_none], names, [*map(object_colour, objects), _NONE])
+    names = [f"movement {m + 1}" for m in range(len(model.movements))] + ["none"]
+    _stack(lower, reasons.movement_probability[order], names, [str(c) for c in np.linspace(0.25, 0.9, len(names))])
+    suspected = [suspicion.demonstration for suspicion in reasons.suspicions]
     ambiguous = {doubt.demonstration: doubt for doubt in reasons.ambiguous}
     for x, t in zip(at, order.tolist(), strict=True):
         if t in ambiguous:
             upper.text(x, 1.02, f"?\n{100 * ambiguous[t].apart:.0f} cm", ha="center", va="bottom", fontsize=7)
-        if t in reasons.unsure_movements:
-            lower.text(x, 1.02, "?", ha="center", va="bottom", fontsize=8)
+        marks = "!" * (t in suspected) + "?" * (t in reasons.unsure_movements)
+        if marks:
+            lower.text(x, 1.02, marks, ha="center", va="bottom", fontsize=8)
     upper.set_ylabel("object")
     lower.set_ylabel("movement")
     lower.set_xticks(at, [str(t + 1) for t in order], fontsize=7)
     lower.set_xlabel("demonstration, sorted by what was found")
     figure.suptitle(
         f"How probable each object and movement is. A ? marks doubt: another one has at least {DOUBT:.0%};\n"
-        "between objects it says how far the two lie apart.",
+        "between objects it says how far the two lie apart. A ! marks what was more probably not meant so.",
         fontsize=10,
     )
 
 
-def _stack(panel: Axes, shares: NDArray[Any], names: list[str], grey: bool = False) -> None:
+def _stack(panel: Axes, shares: NDArray[Any], names: list[str], colours: list[str]) -> None:
     below = np.zeros(len(shares))
-    shades = np.linspace(0.25, 0.9, len(names))
     for number, name in enumerate(names):
-        colour = str(shades[number]) if grey else object_colour(number)
         panel.bar(
-            np.arange(len(shares)), shares[:, number], 0.8, below, color=colour, label=name,
+            np.arange(len(shares)), shares[:, number], 0.8, below, color=colours[number], label=name,
             hatch=_HATCHES[number % len(_HATCHES)], edgecolor="white", linewidth=0,
         )  # fmt: skip
         below += shares[:, number]
@@ -84,7 +91,10 @@ def _stack(panel: Axes, shares: NDArray[Any], names: list[str], grey: bool = Fal
 
 
 def _draw_lexicon(figure: SubFigure, model: ImitationModel) -> None:
-    """Draw the signs of each meaning over each other; below the movements themselves, seen from their objects."""
+    """Draw the signs of each meaning over each other; below the movements themselves, seen from their objects.
+
+    Each way of writing a meaning has its own style of line.
+    """
     objects = model.demonstrations.objects.shape[1]
     columns = max(objects, len(model.movements))
     view = find_view([path for movement in model.movements for path in movement.paths])
@@ -93,12 +103,11 @@ def _draw_lexicon(figure: SubFigure, model: ImitationModel) -> None:
         panel.set(xticks=[], yticks=[])
         panel.set_axis_off()
     for i in range(objects):
-        members = np.flatnonzero(model.focus == i)
-        _draw_word(axes[0, i], model, model.word_order.focus, members)
-        axes[0, i].set_title(f"{object_name(i)}, {len(members)} times", fontsize=9, color=object_colour(i))
+        times = _draw_word(axes[0, i], model, "focus", i)
+        axes[0, i].set_title(f"{object_name(i)}, {times} times", fontsize=9, color=object_colour(i))
     for m, movement in enumerate(model.movements):
-        _draw_word(axes[1, m], model, model.word_order.movement, np.array(movement.members))
-        axes[1, m].set_title(f"movement {m + 1}, {len(movement.members)} times", fontsize=9)
+        times = _draw_word(axes[1, m], model, "movement", m)
+        axes[1, m].set_title(f"movement {m + 1}, {times} times", fontsize=9)
         axes[2, m].set_axis_on()
         _draw_movement(axes[2, m], movement, view)
     figure.suptitle(
@@ -108,11 +117,15 @@ def _draw_lexicon(figure: SubFigure, model: ImitationModel) -> None:
     )
 
 
-def _draw_word(panel: Axes, model: ImitationModel, word: int, members: NDArray[Any]) -> None:
-    for t in members:
-        draw_sign(panel, model.demonstrations[int(t)].signs[word])
-    for line in panel.get_lines():
-        line.set(alpha=0.6, linewidth=1.0)
+def _draw_word(panel: Axes, model: ImitationModel, role: str, meaning: int) -> str:
+    """Draw the signs of a meaning, and return how often each way of writing it was seen, "3 + 2"."""
+    word = model.word_order.focus if role == "focus" else model.word_order.movement
+    forms = [sign.exemplars for sign in model.lexicon if (sign.role, sign.meaning) == (role, meaning)]
+    for number, exemplars in enumerate(forms):
+        for t in exemplars:
+            draw_sign(panel, model.demonstrations[t].signs[word])
+            panel.get_lines()[-1].set(alpha=0.6, linewidth=1.0, linestyle=PATH_STYLES[number % len(PATH_STYLES)])
+    return " + ".join(str(len(exemplars)) for exemplars in forms) or "0"
 
 
 def _draw_movement(panel: Axes, movement: Movement, view: View) -> None:

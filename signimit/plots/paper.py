@@ -48,14 +48,14 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
 
     Args:
         demonstrations: What was seen.
-        labels: Movement found in each demonstration, shape (N,); columns are sorted by it.
-        focus: Object found for each demonstration, shape (N,); its panel is framed.
+        labels: Movement found in each demonstration, shape (N,), -1 for none; columns are sorted by it.
+        focus: Object found for each demonstration, shape (N,), -1 for none; its panel is framed.
 
     Returns:
         One column a demonstration, one row a sign and a row for each object.
     """
     movement, about = np.asarray(labels), np.asarray(focus)
-    order = np.lexsort((about, movement))
+    order = np.lexsort((about, movement, movement < 0))
     words, objects = len(demonstrations[0].signs), demonstrations.objects.shape[1]
     view = find_view([d.hand - place for d in demonstrations for place in d.objects])
     figure, axes = make_panels(
@@ -70,7 +70,8 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
             _draw_about(panel, [demonstration.hand - place], i, view)
             if i == about[t]:
                 frame_panel(panel)
-        axes[0, column].set_title(f"{t + 1}\nmovement {movement[t] + 1}", fontsize=8)
+        found = f"movement {movement[t] + 1}" if movement[t] >= 0 else "no movement"
+        axes[0, column].set_title(f"{t + 1}\n{found}", fontsize=8)
     for word in range(words):
         axes[word, 0].set_ylabel(f"sign {word + 1}", fontsize=9)
     for i in range(objects):
@@ -274,9 +275,9 @@ def _draw_matrix(
 
 
 def _sorted_by(labels: ArrayLike) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return demonstrations sorted by movement, and where in that order movements change."""
+    """Return demonstrations sorted by movement, those of none last, and where in that order movements change."""
     movement = np.asarray(labels)
-    order = np.argsort(movement, kind="stable")
+    order = np.lexsort((movement, movement < 0))
     return order, np.flatnonzero(np.diff(movement[order])) + 1
 
 

@@ -347,6 +347,8 @@ def test_the_matrix_says_which_demonstrations_are_compared_and_how_alike_they_ar
     assert call("matrix", MATRIX, DATA, "0 1", [1, 0])[1].endswith(": 2.00 / rad²")
     assert call("matrix", MATRIX, DATA, "0 0", [1, 1])[1] == "Demonstration 1 with itself."
     assert call("matrix", MATRIX, {**DATA, "labels": [1, 1]}, "maximum", [0, 1])[1].count("both movement 2") == 1
+    told = [call("matrix", MATRIX, {**DATA, "labels": labels}, "maximum", [0, 1])[1] for labels in ([0, -1], [-1, -1])]
+    assert ["movements none and 1:" in told[0], "1, no movement:" in told[1]] == [True, True]
 
 
 @pytest.mark.parametrize("name", LANGUAGES)
@@ -386,11 +388,25 @@ def test_what_is_to_be_drawn_is_said_for_prompts_for_made_up_signs_and_for_redra
     assert shown == [["Demonstration 1, by person", again.split(" Draw again")[0]], ["Demonstration 2", ""]]
 
 
+def test_what_is_suspected_can_be_redrawn_where_it_is_doubted(call: Call) -> None:
+    script = """
+    ({ doubtItem, startBelief }, doubt) => {
+      const redrawn = [];
+      startBelief({ redraw: (number) => redrawn.push(number) });
+      const made = doubtItem(doubt);
+      made.querySelector("button")?.click();
+      return [made.firstChild.textContent, redrawn];
+    }"""
+    doubt = {"number": 4, "text": "It is odd.", "suspected": True}
+    assert call("belief", script, doubt) == ["It is odd. Redraw it, or keep it as it is. ", [4]]
+    assert call("belief", script, {**doubt, "suspected": False}) == ["It is odd.", []]
+
+
 def test_a_belief_is_said_with_its_probability(call: Call) -> None:
-    belief = {"labels": [2, 0], "focus": [1, 0], "focus_probability": [[0.029, 0.971], [1, 0]]}
-    say = "({ beliefSentence }, belief) => [0, 1].map((n) => beliefSentence(belief, n))"
+    belief = {"labels": [2, 0, -1], "focus": [1, 0, -1], "focus_probability": [[0.029, 0.971], [1, 0], [0.5, 0.5]]}
+    say = "({ beliefSentence }, belief) => [0, 1, 2].map((n) => beliefSentence(belief, n))"
     told = ["Movement 3 about the green object, 97 %", "Movement 1 about the red object, 100 %"]
-    assert call("pictures", say, belief) == told
+    assert call("pictures", say, belief) == [*told, "None of the movements that the others show"]
 
 
 def test_a_ring_is_drawn_about_each_object_as_far_as_it_is_probable(call: Call) -> None:

@@ -116,7 +116,8 @@ function thumb(belief, number) {
 function fill(box, belief, number, label) {
   attempt(async () => {
     const shown = await demonstration(number);
-    box.replaceChildren(scenePicture(shown, belief?.focus_probability[number], label));
+    const probability = belief && belief.focus[number] >= 0 ? belief.focus_probability[number] : null;
+    box.replaceChildren(scenePicture(shown, probability, label));
   });
 }
 
@@ -179,9 +180,16 @@ function chips(belief, members) {
   return make("div", { className: "chips" }, ...made);
 }
 
+/** What is doubted, and why; what is suspected can be drawn again here, or is kept as it is. */
+export function doubtItem({ number, text, suspected }) {
+  if (!suspected) return make("li", { textContent: text });
+  const redraw = button("Redraw", () => hooks.redraw(number), { "aria-label": `Redraw suspected demonstration ${number + 1}` });
+  return make("li", {}, make("span", { textContent: `${text} Redraw it, or keep it as it is. ` }), redraw);
+}
+
 function wishCard(belief) {
   const doubts = belief.doubtful.length
-    ? make("ul", {}, ...belief.doubtful.map(({ text }) => make("li", { textContent: text })))
+    ? make("ul", {}, ...belief.doubtful.map(doubtItem))
     : make("p", { textContent: "It doubts none of the demonstrations." });
   const { wish } = belief;
   const wished = wish?.text

@@ -115,7 +115,8 @@ export class Matrix {
     const { order, labels } = this.data;
     const [t, k] = [order[row], order[column]];
     if (t === k) return `Demonstration ${t + 1} with itself.`;
-    const kin = labels[t] === labels[k] ? `both movement ${labels[t] + 1}` : `movements ${labels[t] + 1} and ${labels[k] + 1}`;
+    const [first, second] = [t, k].map((n) => (labels[n] < 0 ? "none" : labels[n] + 1));
+    const kin = labels[t] !== labels[k] ? `movements ${first} and ${second}` : labels[t] < 0 ? "no movement" : `both movement ${first}`;
     return `Demonstrations ${t + 1} and ${k + 1}, ${kin}: ${this.values[t][k].toFixed(2)} / rad²`;
   }
 }

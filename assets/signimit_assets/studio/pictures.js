@@ -85,6 +85,7 @@ function ring([x, y], share) {
 /** Say where the robot thinks a demonstration belongs, e.g. "Movement 2 about the red object, 97 %". */
 export function beliefSentence(belief, number) {
   const focus = belief.focus[number];
+  if (focus < 0) return "None of the movements that the others show";
   const sure = percent(belief.focus_probability[number][focus]);
   return capital(`movement ${belief.labels[number] + 1} about the ${objectName(focus)} object, ${sure}`);
 }

@@ -140,14 +140,15 @@ async function shownDemonstration(chosen) {
   const shown = await demonstration(number);
   const { belief } = store.session;
   const known = belief && !belief.failed;
+  const focus = known && belief.focus[number] >= 0 ? belief.focus[number] : null;
   return {
     signs: shown.signs,
     path: shown.hand.points,
     times: shown.hand.times,
     plane: "table",
     objectsAt: () => shown.objects,
-    focus: known ? belief.focus[number] : null,
-    sure: known ? belief.focus_probability[number][belief.focus[number]] : 0,
+    focus,
+    sure: focus === null ? 0 : belief.focus_probability[number][focus],
     sentence: known ? `Understood: ${beliefSentence(belief, number).toLowerCase()}` : "",
     picture: store.studio.can_draw ? await blob(path(`${chosen}/scene.jpg`)) : null,
   };

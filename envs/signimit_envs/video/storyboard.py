@@ -106,11 +106,13 @@ def show_card(result: SessionResult) -> Iterator[Shot]:
     model = result.model
     order = model.word_order
     groups = [", ".join(str(t + 1) for t in movement.members) for movement in model.movements]
+    beside = ", ".join(str(t + 1) for t in np.flatnonzero(model.labels < 0))
     lines = (
         "What the robot understood, without having been told anything:",
         "",
         f"The demonstrator knows {len(groups)} movements:",
         *(f"    movement {m}, in demonstrations {members}" for m, members in enumerate(groups, start=1)),
+        *([f"    none of them in demonstrations {beside}"] if beside else []),
         "",
         f"The {ordinal(order.focus)} sign names the object,",
         f"the {ordinal(order.movement)} sign names the movement.",

@@ -100,13 +100,14 @@ def ask_at_random(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.floa
 def ask_the_least_shown(lesson: Lesson, model: ImitationModel, scenes: NDArray[np.float64]) -> Question:
     """Ask for the pair that, by the model, was shown least, in any scene: a balanced design."""
     shown = np.zeros((len(model.movements), scenes.shape[1]))
-    np.add.at(shown, (model.labels, model.focus), 1.0)
-    heard = np.unique(model.focus)
+    asked = model.understanding.requests
+    np.add.at(shown, asked, 1.0)
+    heard = np.unique(asked.focus)
     movement, at = np.unravel_index(int(shown[:, heard].argmin()), (len(shown), len(heard)))
     word: WordOrder = model.word_order
     copied = [0, 0]
-    copied[word.movement] = int(np.flatnonzero(model.labels == movement)[0])
-    copied[word.focus] = int(np.flatnonzero(model.focus == heard[at])[0])
+    copied[word.movement] = int(np.flatnonzero(asked.movement == movement)[0])
+    copied[word.focus] = int(np.flatnonzero(asked.focus == heard[at])[0])
     return Question(lesson.meaning(copied), scenes[int(lesson.rng.integers(len(scenes)))])
 
 

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from signimit import ImitationModel, InvalidInputError, learn
 from signimit.benchmark.studies.conditions import compose_study_session, study_condition
-from signimit.learners.base import Belief
+from signimit.learners.base import Asked, Belief
+from signimit.lexicon import Sign
 from signimit.plots.explanation import draw_explanation
 
 SESSION = compose_study_session(study_condition(3, 2, 1), 1)
@@ -83,3 +84,56 @@ def test_a_method_without_probabilities_has_no_picture() -> None:
     model = learn(SESSION.demonstrations, SESSION.prototypes, method="paper", policy="knn")
     with pytest.raises(InvalidInputError, match='"joint" has'):
         draw_explanation(model)
+
+
+def beside_the_point(model: ImitationModel, number: int) -> ImitationModel:
+    """The same model, where one demonstration shows none of the movements."""
+    known = model.understanding
+    belief = known.belief
+    assert belief is not None
+    labels, focus, movement = known.labels.copy(), known.focus.copy(), belief.movement_probability.copy()
+    labels[number] = focus[number] = -1
+    movement[number] = np.eye(movement.shape[1])[-1]
+    trust = np.ones(len(labels))
+    trust[number] = 0.01
+    belief = belief._replace(movement_probability=movement)
+    changed = known._replace(
+        labels=labels, focus=focus, belief=belief, asked=Asked(known.labels, known.focus), trust=trust
+    )
+    return dataclasses.replace(model, understanding=changed)
+
+
+def test_a_demonstration_of_nothing_comes_last_with_a_mark_and_is_about_none(model: ImitationModel) -> None:
+    changed = beside_the_point(model, 0)
+    upper, lower = panels(draw_explanation(changed))[:2]
+    assert [tick.get_text() for tick in lower.get_xticklabels()][-1] == "1"
+    assert texts(lower) == ["!"]
+    for panel in (upper, lower):
+        legend = panel.get_legend()
+        assert legend is not None
+        assert [entry.get_text() for entry in legend.get_texts()][-1] == "none"
+        count = len(SESSION.demonstrations)
+        assert panel.patches[-1].get_height() == 1.0  # type: ignore[attr-defined]
+        assert sum(bar.get_height() for bar in panel.patches[-count:]) == pytest.approx(1.0, abs=0.05)  # type: ignore[attr-defined]
+
+
+def test_its_words_are_in_the_lexicon_its_path_is_not(model: ImitationModel) -> None:
+    lexicon = panels(draw_explanation(beside_the_point(model, 0)))[2:-1]
+    count = len(SESSION.demonstrations)
+    words, movements = lexicon[:6], lexicon[6:9]
+    assert sum(len(panel.lines) for panel in words) == 2 * count
+    assert sum(len(panel.lines) - 1 for panel in movements) == count - 1  # one line is the cross
+
+
+def test_two_ways_of_writing_are_counted_apart(model: ImitationModel) -> None:
+    red = np.flatnonzero(model.focus == 0)
+    lexicon = (
+        Sign("focus", 0, tuple(red[:2].tolist())),
+        Sign("focus", 0, tuple(red[2:].tolist())),
+        *(sign for sign in model.lexicon if (sign.role, sign.meaning) != ("focus", 0)),
+    )
+    written = dataclasses.replace(model)
+    written.__dict__["lexicon"] = lexicon
+    panel = panels(draw_explanation(written))[2]
+    assert panel.get_title() == "red, 2 + 1 times"
+    assert [line.get_linestyle() for line in panel.lines] == ["-", "-", "--"]

@@ -42,6 +42,18 @@ def test_figure_4_has_a_column_a_demonstration_and_a_row_a_sign_and_object() -> 
     assert titles == ["4", "2", "1", "3"]  # counted from 1, by movement, then by object
 
 
+def test_what_shows_no_movement_comes_last_and_no_panel_of_it_is_framed() -> None:
+    labels, focus = np.array([1, -1, 1, 0]), np.array([0, -1, 2, 0])
+    figure = figures.draw_demonstrations(demonstration_set(), labels, focus)
+    titles = [panel.get_title() for panel in figure.axes[:4]]
+    assert titles == ["4\nmovement 1", "1\nmovement 2", "3\nmovement 2", "2\nno movement"]
+    framed = [max(s.get_linewidth() for s in panel.spines.values()) > 2 for panel in figure.axes]
+    assert [sum(framed[column::4]) for column in range(4)] == [1, 1, 1, 0]
+    gamma = np.random.default_rng(0).random((4, 4))
+    panel = figures.draw_maximum_similarity(gamma, labels).axes[0]
+    assert np.asarray(panel.images[0].get_array())[0, 3] == gamma[3, 1]
+
+
 def test_figure_5_shows_each_pair_of_frames_on_one_scale() -> None:
     gamma = np.random.default_rng(0).random((4, 4, 3, 3))
     images = [a.images[0] for a in figures.draw_similarities(gamma, LABELS).axes if a.images]

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.explanation import Query, Reasons, object_name, ordinal
+from signimit.asking import Query
+from signimit.explanation import SUSPECT, Reasons, is_word_order_clear, object_name, ordinal
 from signimit.learning import ImitationModel
 from signimit.paths import resample_path
 from signimit.signs import normalised_sign
@@ -19,15 +20,20 @@ _MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen
 def belief_json(model: ImitationModel) -> dict[str, Any]:
     """Return what a model of a method with probabilities has learned; numbers are rounded for the screen."""
     reasons, order = model.explain(), model.word_order
-    order_text = f"The {ordinal(order.focus)} sign names the object, the {ordinal(order.movement)} the movement."
+    asked = model.understanding.requests
+    order_text = f"the {ordinal(order.focus)} sign names the object, the {ordinal(order.movement)} the movement."
+    clear = is_word_order_clear(model.understanding)
+    order_text = (
+        order_text.capitalize() if clear else f"The word order cannot be told yet; so far it seems that {order_text}"
+    )
     object_words = [
-        {"object": i, "strokes": _signs_json(model, order.focus, model.focus == i)}
+        {"object": i, "strokes": _signs_json(model, order.focus, asked.focus == i)}
         for i in range(model.demonstrations.objects.shape[1])
     ]
     movement_words = [
         {
             "movement": m,
-            "strokes": _signs_json(model, order.movement, model.labels == m),
+            "strokes": _signs_json(model, order.movement, asked.movement == m),
             "drawings": [_rounded(resample_path(path, _DRAWING_POINTS)) for path in found.paths[-_MOST_EXAMPLES:]],
         }
         for m, found in enumerate(model.movements)
@@ -38,12 +44,13 @@ def belief_json(model: ImitationModel) -> dict[str, Any]:
         "focus": model.focus.tolist(),
         "focus_probability": _rounded(reasons.focus_probability),
         "movement_probability": _rounded(reasons.movement_probability),
-        "word_order": {"focus": order.focus, "movement": order.movement, "text": order_text},
+        "word_order": {"focus": order.focus, "movement": order.movement, "clear": clear, "text": order_text},
         "word_orders": [
             {"focus": other.focus, "movement": other.movement, "loss": round(loss, 2)}
             for other, loss in reasons.word_orders
         ],
         "lexicon": {"objects": object_words, "movements": movement_words},
+        "trust": _rounded(model.trust),
         "doubtful": doubts(reasons),
         "text": model.summary(),
     }
@@ -53,8 +60,12 @@ def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
     """Return the demonstration that would teach the model most, with a sentence."""
     asked = f"movement {wish.movement + 1} about the {object_name(wish.focus)} object"
     words = [f"the {ordinal(word)} of demonstration {number + 1}" for word, number in enumerate(wish.copied)]
-    known = ((model.labels == wish.movement) & (model.focus == wish.focus)).any()
-    reason = "to be surer" if known else "as nobody has shown me that yet"
+    meanings = model.understanding.requests
+    trust = model.trust[(meanings.movement == wish.movement) & (meanings.focus == wish.focus)]
+    if not len(trust):
+        reason = "as nobody has shown me that yet"
+    else:
+        reason = "to be surer" if trust[-1] >= SUSPECT else "again, as I doubt that what I was shown then was meant"
     return {
         "text": f"Please make signs like {' and '.join(words)}: I think they ask for {asked}, and ask {reason}.",
         "request": {"movement": wish.movement, "focus": wish.focus},
@@ -64,16 +75,24 @@ def wish_json(model: ImitationModel, wish: Query) -> dict[str, Any]:
 
 
 def doubts(reasons: Reasons) -> list[dict[str, Any]]:
-    """Return the demonstrations that the model is unsure about, each with a sentence."""
+    """Return the demonstrations that the model is unsure about, each with a sentence, and whether it is a suspicion.
+
+    A suspicion tells what the demonstration would have to be to fit, and stands for its other doubts.
+    """
     found: dict[int, list[str]] = {}
+    suspected = {suspicion.demonstration: str(suspicion) for suspicion in reasons.suspicions}
     for doubt in reasons.ambiguous:
         likely = [f"{object_name(i)} {p:.0%}" for i, p in zip(doubt.objects, doubt.probabilities, strict=True)]
         found.setdefault(doubt.demonstration, []).append(f"about {' or '.join(likely)}")
     for number in reasons.unsure_movements:
         found.setdefault(number, []).append("its movement is in doubt")
     return [
-        {"number": number, "text": f"Demonstration {number + 1}: {', '.join(found[number])}."}
-        for number in sorted(found)
+        {
+            "number": number,
+            "suspected": number in suspected,
+            "text": suspected.get(number) or f"Demonstration {number + 1}: {', '.join(found[number])}.",
+        }
+        for number in sorted({*found, *suspected})
     ]
 
 

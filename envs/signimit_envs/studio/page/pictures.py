@@ -108,7 +108,7 @@ def similarities_json(model: ImitationModel) -> dict[str, Any]:
     by_frames = policy_similarities(distances).transpose(2, 3, 0, 1)
     return {
         "labels": model.labels.tolist(),
-        "order": np.argsort(model.labels, kind="stable").tolist(),
+        "order": np.lexsort((model.labels, model.labels < 0)).tolist(),
         "maximum": np.round(maximum_similarities(distances), 3).tolist(),
         "frames": np.round(by_frames, 3).tolist(),
     }

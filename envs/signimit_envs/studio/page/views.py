@@ -98,8 +98,8 @@ def _listed_json(session: OpenSession, number: int, shown: DrawnDemonstration) -
     return {
         "number": number,
         "prompt": _request_json(shown.prompt),
-        "focus": None if model is None else int(model.focus[number]),
-        "movement": None if model is None else int(model.labels[number]),
+        "focus": None if model is None or model.focus[number] < 0 else int(model.focus[number]),
+        "movement": None if model is None or model.labels[number] < 0 else int(model.labels[number]),
         "sure": model is not None and number not in doubtful,
         "by": shown.by,
     }

@@ -1,14 +1,18 @@
 """Lessons: who asks well understands sooner, and what is asked is answered truthfully."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("sklearn", reason="the study's tables need scikit-learn")
 
-from signimit.benchmark.studies.asking import STRATEGIES, Lesson, Question, run_lessons
+from signimit.benchmark.studies.asking import STRATEGIES, Lesson, Question, ask_the_least_shown, run_lessons
 from signimit.benchmark.studies.conditions import study_condition
 from signimit.benchmark.studies.tables import LessonRow, demonstrations_needed, tabulate_lessons
 from signimit.demonstrations import DemonstrationSet
+from signimit.inference import WordOrder
+from signimit.learners.base import Asked
 from signimit.learning import learn
 from signimit.teaching.languages import Request
 
@@ -33,6 +37,19 @@ def test_every_strategy_asks_for_something_that_can_be_shown(name: str) -> None:
     lesson.show(question)
     assert lesson.requests[-1] == question.request
     assert len(lesson.demonstrations) == 4
+
+
+def test_the_least_shown_pair_is_counted_by_what_was_asked_for() -> None:
+    lesson = Lesson(CONDITION, 1)
+    model = SimpleNamespace(
+        movements=(None, None),
+        labels=np.array([0, -1, 1]),
+        focus=np.array([0, -1, 0]),
+        word_order=WordOrder(lesson.language.focus_word, lesson.language.movement_word),
+        understanding=SimpleNamespace(requests=Asked(np.array([0, 0, 1]), np.array([0, 1, 0]))),
+    )
+    lesson.requests[:3] = [Request(0, 0), Request(0, 1), Request(1, 0)]
+    assert ask_the_least_shown(lesson, model, lesson.scenes(2)).request == Request(1, 1)  # type: ignore[arg-type]
 
 
 def test_copied_signs_mean_what_they_meant_whatever_the_word_order() -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from signimit import DemonstrationSet, Stroke
+from signimit import Demonstration, DemonstrationSet, Stroke
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page import pictures
 from signimit_envs.studio.page.pictures import FigureCache, film_demonstration, similarities_json
@@ -111,3 +111,13 @@ def test_a_long_demonstration_is_filmed_in_so_many_frames_that_it_takes_seconds(
     assert short[-1].caption == "Demonstration 1: the demonstrator answers, the robot watches"
     assert long[-1].caption == "Demonstration 1, 5 times as fast: the demonstrator answers, the robot watches"
     assert len(long[-1].trail) == LIMITS.points
+
+
+def test_demonstrations_of_no_movement_are_compared_last() -> None:
+    turn = np.linspace(0, 2 * np.pi, 40)
+    circle = 0.1 * np.column_stack([np.cos(turn), np.sin(turn)])
+    shown = Demonstration((circle, circle), np.zeros((1, 2)), circle, np.linspace(0.0, 2.0, 40))
+    model = SimpleNamespace(demonstrations=DemonstrationSet([shown] * 4), labels=np.array([-1, 1, 0, -1]))
+    found = similarities_json(model)  # type: ignore[arg-type]
+    assert found["order"] == [2, 1, 0, 3]
+    assert found["labels"] == [-1, 1, 0, -1]
