@@ -120,8 +120,9 @@ def test_models_answer_as_they_did(name: str) -> None:
         assert (response.movement, response.focus) == (answer["movement"], answer["focus"])
         assert same(response.confidence, answer["confidence"], READER_CHANGED)
         # A model's policy is not in its file but learned anew. What 0.1.0 called half size was the root mean square
-        # radius; in half sizes, demonstrations are aligned a little otherwise, and their shared path moves by 1 mm.
-        tolerance = 1.5e-6 if response.policy.kind == "knn" else 0.06  # m/s
+        # radius; in half sizes, demonstrations are aligned a little otherwise, and their shared path moves by 1 mm;
+        # and the reach is now cut off before that, which moves it by 2 mm in the mean.
+        tolerance = 1.5e-6 if response.policy.kind == "knn" else 0.08  # m/s
         assert same(response.policy(HANDS), answer["velocities"], tolerance)
         assert same(response.policy(HANDS[1]), answer["velocities"][1], tolerance)
 

@@ -3,11 +3,11 @@
 ============== =================================================================== =============== ==========
 kind           what                                                                state           options
 ============== =================================================================== =============== ==========
-path-following the course that the demonstrations share, followed at their speed   phase           pull, near
+path-following the course that the demonstrations share, followed at their speed   phase           repeat, pull, near
 knn            the paper's: mean direction of the 50 nearest demonstrated points   none            neighbours
 ilo-gmr        a mixture of Gaussians fitted to the nearest points at every call   none            neighbours
 gmr            Gaussian mixture regression, the number of components chosen by BIC none            components
-dmp            dynamic movement primitives: discrete reach, then the rhythmic part phase, velocity frequency
+dmp            dynamic movement primitives: discrete reach, then the movement      phase, velocity repeat, frequency
 ============== =================================================================== =============== ==========
 
 ``path-following`` is the default; ``ilo-gmr`` is Cederborg et al. 2010, ``dmp`` Ijspeert et al. 2013.
@@ -20,9 +20,10 @@ import os
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
-from signimit.exceptions import FileFormatError, UnknownNameError
+from signimit.exceptions import FileFormatError, InvalidInputError, UnknownNameError
 from signimit.policies.base import CONTROL_PERIOD as CONTROL_PERIOD
 from signimit.policies.base import PlacedPolicy as PlacedPolicy
 from signimit.policies.base import Policy as Policy
@@ -43,7 +44,11 @@ StatefulPolicy = Policy  # its name in 0.1.0, when only some kinds had `start` a
 
 
 def make_policy(
-    paths: Sequence[ArrayLike], times: Sequence[ArrayLike], kind: str = DEFAULT_POLICY, **options: Any
+    paths: Sequence[ArrayLike],
+    times: Sequence[ArrayLike],
+    kind: str = DEFAULT_POLICY,
+    repeat: bool | None = None,
+    **options: Any,
 ) -> Policy:
     """Learn a policy from demonstrations of one movement, seen from the object each was about (paper, section II-E).
 
@@ -51,6 +56,9 @@ def make_policy(
         paths: Hand positions, each of shape (T, 2), m, origin at the object.
         times: When the hand was there, each of shape (T,), s, strictly increasing.
         kind: One of `POLICY_KINDS`; ``"knn"`` is the paper's.
+        repeat: Whether the movement goes round and round (True), or is made once, from its beginning, after which the
+            hand rests (False). Left out, it repeats if most demonstrations come round again. Kinds that know no course
+            (knn, gmr, ilo-gmr) cannot be told.
         **options: Settings of that kind, e.g. ``neighbours=20``. The table of `signimit.policies` has their names, the
             attributes of each kind's class say what they do.
 
@@ -62,6 +70,10 @@ def make_policy(
         UnknownNameError: If there is no such kind, or it has no such option.
     """
     check_policy_kind(kind)
+    if repeat is not None:
+        if not isinstance(repeat, bool | np.bool_):
+            raise InvalidInputError("repeat", "True, False or None", repr(repeat))
+        options["repeat"] = bool(repeat)
     learn = _CLASSES[kind].learn
     known = [p.name for p in inspect.signature(learn).parameters.values() if p.kind is p.KEYWORD_ONLY]
     for name in options:

@@ -45,9 +45,9 @@ class PrimitiveState(NamedTuple):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DMPPolicy(StoredPolicy):
-    """Discrete reach to the nearest place of the course, then the rhythmic primitive; both are one spring.
+    """Discrete reach to the course, then the primitive, rhythmic if the movement repeats; both are one spring.
 
-    A movement that ends at a goal has no reach: the discrete primitive starts wherever the hand is.
+    A movement that repeats is reached at its nearest place, one that is made once at its beginning.
 
     Attributes:
         weights: Of the basis functions of the forcing term, shape (BASES, 2), m/s².
@@ -57,6 +57,8 @@ class DMPPolicy(StoredPolicy):
         reach_speed: Greatest speed of the reach, m/s.
         frequency: Of the spring, rad/s: an error is forgotten within about 3 / frequency seconds; a stiffer spring asks
             for higher speeds after a shove.
+        whole: Whether a discrete primitive waits until the hand has reached its beginning (1), or starts wherever the
+            hand is (0), as those of version 0.1.0 did.
     """
 
     kind: ClassVar[str] = "dmp"
@@ -66,6 +68,7 @@ class DMPPolicy(StoredPolicy):
     half_size: float
     reach_speed: float
     frequency: float = FREQUENCY
+    whole: float = 0.0
     _goal: Array = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -81,9 +84,11 @@ class DMPPolicy(StoredPolicy):
         object.__setattr__(self, "_goal", frozen(goal))
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke], *, frequency: float = FREQUENCY) -> Self:
-        """Find the shared course and fit the forcing term to it."""
-        path = learn_reference_path(demonstrations)
+    def learn(
+        cls, demonstrations: Sequence[Stroke], *, repeat: bool | None = None, frequency: float = FREQUENCY
+    ) -> Self:
+        """Find the shared course, repeating or not as `learn_reference_path` tells, and fit the forcing term to it."""
+        path = learn_reference_path(demonstrations, repeat)
         nodes = sample_reference_path(path)
         goal = nodes.mean(axis=0) if path.closed else nodes[-1]
         ends = (nodes[-1:], nodes[:1]) if path.closed else (nodes[:1], nodes[-1:])
@@ -93,7 +98,8 @@ class DMPPolicy(StoredPolicy):
         wanted = acceleration - frequency**2 * (goal - nodes) + 2 * frequency * velocity
         bases = _bases(np.arange(len(nodes)) / len(nodes), path.closed)
         weights = np.linalg.solve(bases.T @ bases + RIDGE * np.eye(BASES), bases.T @ wanted)
-        return cls(weights, nodes, float(path.closed), path.half_size, path.reach_speed, frequency)
+        closed = float(path.closed)
+        return cls(weights, nodes, closed, path.half_size, path.reach_speed, frequency, whole=1.0 - closed)
 
     def start(self) -> PrimitiveState:
         """Return the state of hands not seen yet."""
@@ -114,7 +120,7 @@ class DMPPolicy(StoredPolicy):
         velocity = velocity + CONTROL_PERIOD * pushed
         velocity = np.where(drawing[:, None], velocity, within_speed(velocity, self.reach_speed))
         pace = drawing / (1.0 + (distance / (PATIENCE * self.half_size)) ** 2) / len(self.course)
-        onward = (phases + pace) % 1.0 if self.closed else np.minimum(phases + 1.0 / len(self.course), 1.0)
+        onward = (phases + pace) % 1.0 if self.closed else np.minimum(phases + drawing / len(self.course), 1.0)
         shape, answer = hands.shape[:-1], velocity.reshape(hands.shape)
         begun = drawing.reshape(shape)
         begun.setflags(write=False)
@@ -137,7 +143,7 @@ class DMPPolicy(StoredPolicy):
         if state.phases is None or state.velocity is None or state.drawing is None:
             count = hands.size // 2
             new = self._nearest(hands.reshape(-1, 2)) if self.closed else np.zeros(count)
-            return new, np.zeros((count, 2)), np.full(count, not self.closed)
+            return new, np.zeros((count, 2)), np.full(count, not self.closed and not self.whole)
         if state.velocity.shape != hands.shape:
             raise InvalidInputError("hand", f"hands of the state's shape {state.velocity.shape}", f"{hands.shape}")
         return state.phases.reshape(-1), state.velocity.reshape(-1, 2), state.drawing.reshape(-1)

@@ -2,7 +2,8 @@
 
 Control by maneuver regulation (Hauser and Hindman 1995): the phase is observed from the hand, not counted by a clock,
 so a hand that is held or pushed is not left behind. Near the course the velocity is that of the demonstrators plus a
-pull; far from it the hand goes straight to the nearest place.
+pull; far from it the hand goes straight to the nearest place of a movement that repeats, and to the beginning of one
+that is made once.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ SURE = 0.04  # half sizes; a hand so close to the expected place is taken to be 
 LEAST_NEAR = 1e-9  # half sizes; what is less is no distance of a hand
 LOST = 0.32  # half sizes; further, the phase is looked for everywhere
 LOOK_AROUND = 4  # nodes about the expected one, the phases of a hand that is neither sure nor lost
-ENTRY = 0.25  # of a way that ends at a goal: from afar it is entered there, not at the goal
+ENTRY = 0.25  # of a way that ends at a goal and is not `whole`: from afar it is entered there, not at the goal
 _AROUND = np.arange(-LOOK_AROUND, LOOK_AROUND + 1)
 BLOCK = 512  # hands at once: their table of gaps stays in the cache
 
@@ -62,13 +63,15 @@ class PathFollowingPolicy(StoredPolicy):
 
     Attributes:
         course: Positions at equal steps of time, shape (M, 2), m, object's frame.
-        closed: Whether the course goes round (1) or ends at the last node, a goal (0).
+        closed: Whether the course goes round (1) or ends at the last node, where the hand rests (0).
         half_size: Half of the larger extent of the movement, m.
         reach_speed: Speed on the way to the course, m/s.
         pull: Speed towards the course for each metre off it, 1/s, up to ``reach_speed``: a stronger pull is back sooner
             after a shove, and swings where an arm follows late.
         near: Distance from the course, in half sizes, at which the demonstrators' velocity counts half and below which
             the phase moves on: more of it rounds corners off, less lets a hand that is held off the course stand still.
+        whole: Whether a course that ends is followed from its first node by every hand, which keeps its phase however
+            far it is shoved (1), or entered where it is near (0), as policies of version 0.1.0 did.
     """
 
     kind: ClassVar[str] = "path-following"
@@ -78,6 +81,7 @@ class PathFollowingPolicy(StoredPolicy):
     reach_speed: float
     pull: float = PULL
     near: float = NEAR
+    whole: float = 0.0
     _columns: Array = field(init=False, repr=False)  # of each node: x, y, m, and the velocity to the next, m/s
     _rows: tuple[tuple[float, ...], ...] = field(init=False, repr=False)  # the same in Python's numbers
     _plane: NDArray[np.float32] = field(init=False, repr=False)
@@ -100,10 +104,13 @@ class PathFollowingPolicy(StoredPolicy):
         object.__setattr__(self, "_plane", plane)
 
     @classmethod
-    def learn(cls, demonstrations: Sequence[Stroke], *, pull: float = PULL, near: float = NEAR) -> Self:
-        """Find the shared course and lay it out in time."""
-        path = learn_reference_path(demonstrations)
-        return cls(sample_reference_path(path), float(path.closed), path.half_size, path.reach_speed, pull, near)
+    def learn(
+        cls, demonstrations: Sequence[Stroke], *, repeat: bool | None = None, pull: float = PULL, near: float = NEAR
+    ) -> Self:
+        """Find the shared course, of a movement that repeats or not as `learn_reference_path` tells, and time it."""
+        path = learn_reference_path(demonstrations, repeat)
+        course, closed = sample_reference_path(path), float(path.closed)
+        return cls(course, closed, path.half_size, path.reach_speed, pull, near, whole=1.0 - closed)
 
     def start(self) -> PhaseState:
         """Return the state of hands not seen yet."""
@@ -116,7 +123,8 @@ class PathFollowingPolicy(StoredPolicy):
             raise InvalidInputError("hand", f"hands of the state's shape {np.shape(expected)}", f"{hands.shape}")
         x, y, xp = _coordinates(hands)
         if expected is None:
-            nodes = _of_hands(hands, self._find(hands.reshape(-1, 2)))
+            flat = hands.reshape(-1, 2)
+            nodes = _of_hands(hands, np.zeros(len(flat), dtype=np.int64) if self.whole else self._find(flat))
         else:
             nodes = self._observe(expected, hands, x, y, xp)
         velocity, onward = self._follow(nodes, x, y, xp)
@@ -154,8 +162,10 @@ class PathFollowingPolicy(StoredPolicy):
         if not xp.any(astray):
             return expected
         nodes, flat = np.array(expected, ndmin=1), hands.reshape(-1, 2)
-        late = np.flatnonzero(astray & (squares <= (LOST * self.half_size) ** 2))
-        lost = np.flatnonzero(squares > (LOST * self.half_size) ** 2)
+        far = squares > (LOST * self.half_size) ** 2
+        late, lost = np.flatnonzero(astray & ~far), np.flatnonzero(far)
+        if self.whole:  # no node is left out, and none is drawn twice
+            late, lost = late[nodes[late] > 0], lost[:0]
         if len(late):
             around = self._clip(nodes[late, None] + _AROUND, np)
             gaps = self.course.take(around, axis=0) - flat[late, None]

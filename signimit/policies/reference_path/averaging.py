@@ -1,7 +1,7 @@
 """Mean of many passes over one reference path, in position and in time.
 
 DTW barycentre averaging (Petitjean et al. 2011, doi:10.1016/j.patcog.2010.09.013) for courses that repeat: aligned
-points are averaged node by node, so corners meet corners and stay sharp. A pass that is unlike the others counts less.
+points are averaged node by node, so corners meet corners and stay sharp. A pass that is unlike the course counts less.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from signimit.paths import TimedPath, arc_lengths
 from signimit.policies.base import Array
+from signimit.policies.reference_path.alignment import FARTHEST_GAP
 
-UNLIKE = 1.5  # passes further from the median pass than so many typical distances count less
+ALIKE = 0.07  # half sizes from the course; rounds of one hand are 0.05 to 0.08 from it, of strangers 0.12 to 0.3
 
 
 class Pass(NamedTuple):
@@ -86,27 +87,37 @@ def _smooth(rising: Array) -> Array:
     return smooth
 
 
-def mean_pass(passes: Sequence[Pass]) -> MeanPass:
-    """Average passes node by node, an outlying pass with less weight (Huber's, squared)."""
+def mean_pass(passes: Sequence[Pass], course: Array, unit: float, closed: bool) -> MeanPass:
+    """Average passes node by node, one that is unlike the course with less weight; leave out what few passed.
+
+    The weight is Gaussian in the distance, so a course that is averaged again and again moves to where passes are dense
+    (mean shift, Comaniciu and Meer 2002, doi:10.1109/34.1000236): with drawings of one hand that is their mean, with
+    drawings by strangers, whose mean nobody drew, it is the drawing that the course began with.
+
+    Args:
+        passes: Rounds of the course, at least one.
+        course: The nodes that they were aligned with, shape (M, 2), m.
+        unit: Half size of the movement, m.
+        closed: Whether rounds follow each other. If not, each pass should go all the way, a node that it does not pass
+            counts as far, and ends that fewer than half of the passes, by weight, reach are no part of the course.
+
+    Returns:
+        The mean, at most M nodes.
+    """
     points = np.array([p.points for p in passes])
     speeds = np.array([p.speeds for p in passes])
     seen, timed = np.isfinite(points[..., 0]), np.isfinite(speeds)
-    weights = _pass_weights(points, seen)[:, None]
+    gaps = np.where(seen, np.hypot(*np.moveaxis(points - course, -1, 0)), 0.0 if closed else FARTHEST_GAP * unit)
+    apart = gaps.sum(axis=1) / (seen.sum(axis=1) if closed else len(course)) / (ALIKE * unit)
+    weights = np.exp(-0.5 * (apart**2 - apart.min() ** 2))[:, None]
     support = (weights * seen).sum(axis=0)
     total = (weights[..., None] * np.where(seen[..., None], points, 0.0)).sum(axis=0)
     paced = (weights * np.where(timed, speeds, 0.0)).sum(axis=0)
     tiny = np.finfo(np.float64).tiny
     mean = total / np.maximum(support, tiny)[:, None]
-    return MeanPass(mean, paced / np.maximum((weights * timed).sum(axis=0), tiny), support)
-
-
-def _pass_weights(points: Array, seen: NDArray[np.bool_]) -> Array:
-    """Return a weight in (0, 1] for each pass by its mean distance from the median pass."""
-    median = np.zeros(points.shape[1:])
-    shown = seen.any(axis=0)
-    median[shown] = np.nanmedian(points[:, shown], axis=0)
-    gaps = np.where(seen, np.hypot(*np.moveaxis(points - median, -1, 0)), 0.0)
-    distance = gaps.sum(axis=1) / seen.sum(axis=1)
-    allowed = max(UNLIKE * float(np.median(distance)), 1e-9)
-    weights: Array = np.minimum(1.0, allowed / np.maximum(distance, allowed)) ** 2
-    return weights
+    pace = paced / np.maximum((weights * timed).sum(axis=0), tiny)
+    kept = support > tiny
+    if not closed:
+        reached = np.flatnonzero(support >= min(0.5 * weights.sum(), support.max()))
+        kept[: reached[0]] = kept[reached[-1] + 1 :] = False
+    return MeanPass(mean[kept], pace[kept], support[kept])
