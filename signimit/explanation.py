@@ -1,6 +1,6 @@
 """What a learner understood and why, in words.
 
-Whether a person meant what a demonstration shows, and how many signs there are, the paper asks itself in section IV.
+Among it how many signs there are, the second of the four things that a robot has to learn by the paper's abstract.
 """
 
 from __future__ import annotations
