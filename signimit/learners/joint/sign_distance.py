@@ -26,8 +26,10 @@ _LARGEST_GAP = 1.2  # in the same unit
 _MOST_SHEAR = 0.5
 _FLATNESS = 0.05  # share of the width that counts as height: the slant of a flat sign is nothing
 _SHARPNESS = 10.0  # a meaning weighs as the mean of distance ** -10 over its signs: near ones count, far ones hardly
-_UNKNOWN = 0.45  # distance of the nearest seen sign at which a sign is as likely none that was taught as one
-_TEMPERATURE = 1.0
+_TEMPERATURE = 0.8  # of the scores of meanings
+_UNKNOWN = 0.45  # nearest distance at which a sign of one person is as likely none that was taught as one
+_WIDER, _WIDEST = 1.5, 0.9  # the same, in the 0.9 quantile of nearest distances among seen signs of one meaning
+_KNOWN_SLOPE = 20.0  # by which the log-odds of a sign being known fall with the logarithm of its distance
 _PAIRS = 2**9  # pairs that are compared at once
 _SECONDS = 3e-6  # that numpy takes for a sign beside another
 
@@ -117,10 +119,26 @@ class VocabularyReader:
         self, sign: ArrayLike, word: int, meanings: NDArray[np.int64], count: int
     ) -> tuple[NDArray[np.float64], float]:
         """Return the probability of each meaning, shape (count,), and that of the sign having any of them."""
-        nearness = -_SHARPNESS * np.log(cross_sign_distances(sign_features([sign]), self.features[word])[0] + 1e-6)
+        distances = cross_sign_distances(sign_features([sign]), self.features[word])[0] + 1e-6
+        nearness = -_SHARPNESS * np.log(distances)
         scores = np.full(count, -np.inf)
         for meaning in np.unique(meanings):
             members = nearness[meanings == meaning]
             scores[meaning] = logsumexp(members) - np.log(len(members))
-        unknown = -_SHARPNESS * np.log(_UNKNOWN)
-        return np.asarray(softmax(scores / _TEMPERATURE)), float(expit((nearness.max() - unknown) / _TEMPERATURE))
+        farthest = max(self._farthest_known(word, meanings), 1e-6)
+        known = expit(_KNOWN_SLOPE * np.log(farthest / distances.min()))
+        return np.asarray(softmax(scores / _TEMPERATURE)), float(known)
+
+    def _farthest_known(self, word: int, meanings: NDArray[np.int64]) -> float:
+        """Distance to the nearest seen sign at which a sign is as likely none that was taught as one.
+
+        It is farther where signs of one meaning differ more, as those of several people do.
+        """
+        measured = self.understanding.diagnostics.get("sign_distances")
+        distances = sign_distances(self.features[word]) if measured is None else measured[word]
+        equal = (meanings[:, None] == meanings) & ~np.eye(len(meanings), dtype=bool)
+        nearest = np.where(equal, distances, np.inf).min(axis=1)
+        nearest = nearest[np.isfinite(nearest)]
+        if not len(nearest):
+            return _UNKNOWN
+        return float(np.sqrt(_UNKNOWN * _WIDER * np.quantile(nearest, _WIDEST)))
