@@ -75,6 +75,7 @@ class ImitationModel:
         method: Name of the learner.
         policy_kind: Kind of policy that its responses use.
         prototypes: Prototype signs, if the method was given any.
+        repeat: Whether all movements go round and round, or none does; None if that was left to the evidence.
     """
 
     demonstrations: DemonstrationSet
@@ -82,6 +83,7 @@ class ImitationModel:
     method: str
     policy_kind: str
     prototypes: tuple[NDArray[np.float64], ...] | None = None
+    repeat: bool | None = None
     _policies: dict[int, Policy] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
@@ -172,13 +174,14 @@ class ImitationModel:
         confidence = float(reading.movement[movement] * reading.focus[focus] * reading.known)
         return Response(movement, focus, self.policy(movement).at(places[focus]), confidence)
 
-    def respond_if_sure(self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float) -> Response | None:
+    def respond_if_sure(self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float = 0.5) -> Response | None:
         """Answer as `respond` does, or decline: return None where the confidence is below ``least``.
 
         Args:
             signs: As for `respond`.
             objects: As for `respond`.
-            least: Confidence below which to decline, from 0 (never) to 1.
+            least: Confidence below which to decline, from 0 (never) to 1; below a half, an answer is more often wrong
+                than right.
 
         Raises:
             InvalidInputError: As `respond`, and if ``least`` is no probability.
@@ -198,7 +201,7 @@ class ImitationModel:
             raise UnknownNameError("movement", movement, [str(m) for m in range(len(self.movements))])
         if movement not in self._policies:
             _, paths, times = self.movements[movement]
-            self._policies[movement] = make_policy(list(paths), list(times), kind=self.policy_kind)
+            self._policies[movement] = make_policy(list(paths), list(times), self.policy_kind, self.repeat)
         return self._policies[movement]
 
     def observe(self, demonstration: Demonstration) -> Self:
@@ -213,7 +216,7 @@ class ImitationModel:
         understanding = get_learner(self.method).extend(demos, self.understanding)
         if understanding is None:
             raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
-        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes)
+        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes, self.repeat)
         made = {self._shown(m): policy for m, policy in self._policies.items()}
         unchanged = {m: later._shown(m) for m in range(len(later.movements)) if later._shown(m) in made}
         later._policies.update({m: made[shown] for m, shown in unchanged.items()})
@@ -256,7 +259,10 @@ class ImitationModel:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a ``.npz`` file without pickles, whole or not at all."""
         write_model(
-            path, ModelParts(self.demonstrations, self.understanding, self.method, self.policy_kind, self.prototypes)
+            path,
+            ModelParts(
+                self.demonstrations, self.understanding, self.method, self.policy_kind, self.prototypes, self.repeat
+            ),
         )
 
     @classmethod
@@ -275,6 +281,7 @@ def learn(
     method: str = DEFAULT_METHOD,
     policy: str = DEFAULT_POLICY,
     rng: np.random.Generator | int | None = 0,
+    repeat: bool | None = None,
 ) -> ImitationModel:
     """Understand demonstrations: movements, foci, word order and the meaning of signs (paper, section II).
 
@@ -284,18 +291,20 @@ def learn(
         method: Name of a learner; ``signimit.learners.LEARNERS`` has them.
         policy: Kind of policy for the responses; ``signimit.policies.POLICY_KINDS`` has them.
         rng: Generator, or seed of one; the same seed gives the same model.
+        repeat: Whether movements go round and round (True), or are made once and then the hand rests (False). Left
+            out, the demonstrations of each movement tell.
 
     Returns:
         A model that answers utterances.
 
     Raises:
         InvalidInputError: If something cannot be used.
-        UnknownNameError: If there is no such method or policy.
+        UnknownNameError: If there is no such method or policy, or the policy cannot be told whether it repeats.
     """
     if not isinstance(demonstrations, DemonstrationSet):
         raise InvalidInputError("demonstrations", "a DemonstrationSet", type(demonstrations).__name__)
     learner = get_learner(method)
-    check_policy_kind(policy)
+    check_policy_kind(policy, repeat)
     strokes = None if prototypes is None else prototype_points(prototypes)
     understanding = learner.infer(demonstrations, strokes, make_generator(rng))
-    return ImitationModel(demonstrations, understanding, method, policy, strokes)
+    return ImitationModel(demonstrations, understanding, method, policy, strokes, repeat)

@@ -32,6 +32,7 @@ class ModelParts(NamedTuple):
     method: str
     policy_kind: str
     prototypes: tuple[NDArray[np.float64], ...] | None
+    repeat: bool | None
 
 
 def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
@@ -45,7 +46,8 @@ def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
     if parts.prototypes is not None:
         points, _, offsets = flatten([(p, np.zeros(len(p))) for p in parts.prototypes])
         arrays |= {"prototypes": points, "prototype_offsets": offsets}
-    write_archive(path, KIND, VERSION, arrays, {"method": parts.method, "policy": parts.policy_kind})
+    meta = {"method": parts.method, "policy": parts.policy_kind, "repeat": parts.repeat}
+    write_archive(path, KIND, VERSION, arrays, meta)
 
 
 def read_model(path: str | os.PathLike[str]) -> ModelParts:
@@ -60,7 +62,8 @@ def read_model(path: str | os.PathLike[str]) -> ModelParts:
     try:
         method, kind = str(meta["method"]), str(meta["policy"])
         learner = get_learner(method)
-        check_policy_kind(kind)
+        repeat = meta.get("repeat")
+        check_policy_kind(kind, repeat)
         understanding = _checked_understanding(arrays, demos, learner)
         prototypes = None
         if "prototypes" in arrays:
@@ -72,7 +75,7 @@ def read_model(path: str | os.PathLike[str]) -> ModelParts:
         raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
     except UnknownNameError as error:
         raise FileFormatError(where, f"a known {error.what}", repr(error.name)) from None
-    return ModelParts(demos, understanding, method, kind, prototypes)
+    return ModelParts(demos, understanding, method, kind, prototypes, repeat)
 
 
 def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:

@@ -69,27 +69,34 @@ def make_policy(
         InvalidInputError: If a demonstration is not a timed path, or an option has a value that it cannot have.
         UnknownNameError: If there is no such kind, or it has no such option.
     """
-    check_policy_kind(kind)
+    check_policy_kind(kind, repeat)
     if repeat is not None:
-        if not isinstance(repeat, bool | np.bool_):
-            raise InvalidInputError("repeat", "True, False or None", repr(repeat))
         options["repeat"] = bool(repeat)
-    learn = _CLASSES[kind].learn
-    known = [p.name for p in inspect.signature(learn).parameters.values() if p.kind is p.KEYWORD_ONLY]
+    known = _options(kind)
     for name in options:
         if name not in known:
             raise UnknownNameError(f"option of policy kind {kind!r}", name, known)
-    return learn(check_demonstrations(paths, times), **options)
+    return _CLASSES[kind].learn(check_demonstrations(paths, times), **options)
 
 
-def check_policy_kind(kind: str) -> None:
-    """Refuse a kind of policy that there is not.
+def check_policy_kind(kind: str, repeat: bool | None = None) -> None:
+    """Refuse a kind of policy that there is not, or that cannot be told whether its movement repeats.
 
     Raises:
-        UnknownNameError: With the kinds there are.
+        UnknownNameError: With the kinds there are, or the options of the kind.
+        InvalidInputError: If ``repeat`` is neither a truth value nor None.
     """
     if kind not in POLICY_KINDS:
         raise UnknownNameError("policy kind", kind, POLICY_KINDS)
+    if repeat is not None and not isinstance(repeat, bool | np.bool_):
+        raise InvalidInputError("repeat", "True, False or None", repr(repeat))
+    if repeat is not None and "repeat" not in _options(kind):
+        raise UnknownNameError(f"option of policy kind {kind!r}", "repeat", _options(kind))
+
+
+def _options(kind: str) -> list[str]:
+    parameters = inspect.signature(_CLASSES[kind].learn).parameters.values()
+    return [p.name for p in parameters if p.kind is p.KEYWORD_ONLY]
 
 
 def load_policy(path: str | os.PathLike[str]) -> Policy:

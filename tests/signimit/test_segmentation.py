@@ -72,7 +72,7 @@ def test_shift_size_and_pace_change_nothing() -> None:
 
 def test_stops_are_where_a_hand_rests() -> None:
     triangle = _triangle()
-    assert find_stops(triangle, PERIOD * np.arange(len(triangle))).tolist() == pytest.approx([40, 80], abs=2)
+    assert find_stops(triangle, PERIOD * np.arange(float(len(triangle)))).tolist() == pytest.approx([40, 80], abs=2)
 
 
 def test_times_of_another_length_are_refused() -> None:
