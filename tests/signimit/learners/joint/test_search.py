@@ -51,7 +51,12 @@ class Watched(Objective):
 
     def __init__(self, objective: Objective) -> None:
         self.__dict__.update(objective.__dict__)
+        self.starts: list[float] = []
         self.moves: list[tuple[float, float]] = []
+
+    def start(self, hypothesis: Hypothesis) -> None:
+        super().start(hypothesis)
+        self.starts.append(self.value())
 
     def move(self, member: int, movement: int, place: int, asked_movement: int, asked_focus: int) -> None:
         before = self.value()
@@ -93,6 +98,24 @@ def test_what_is_found_is_no_worse_than_any_start_and_nobody_wants_to_move(sessi
             other.place[t] = other.asked_focus[t] = choice[1]
             objective.start(other)
             assert objective.value() <= value + 1e-6
+
+
+def test_the_six_highest_starts_are_followed() -> None:
+    objective, starts = random_objective(12, 3, 0)
+    assert len(starts) > 6
+    search(watched := Watched(objective), starts)
+    ranked, followed = watched.starts[: len(starts)], watched.starts[len(starts) :]
+    assert followed == sorted(ranked, reverse=True)[:6]
+
+
+def test_starts_are_of_drawings_alone_and_of_drawings_and_words() -> None:
+    drawn, said = np.array([0, 0, 1, 1]), np.array([0, 1, 0, 1])
+    unlike = np.where(drawn[:, None] == drawn, -2.0, 0.0)
+    words = 9.0 * (said[:, None] == said)
+    seen = Measurements(unlike, np.zeros((2, 4, 4)), np.zeros((4, 1, 2)), np.zeros((4, 1)))
+    found = [start.movement.tolist() for start in first_hypotheses(seen, words, PEOPLE)]
+    assert drawn.tolist() in found
+    assert said.tolist() in found
 
 
 @properties
