@@ -78,12 +78,12 @@ def slow_value(seen: Measurements, words: Array, known: Hypothesis, assumed: Ass
 
     total = 0.0
     for m in movements:
-        members = np.flatnonzero(known.movement == m)
+        members = np.flatnonzero(known.movement == m).tolist()
         total += sum(alike(t, k) for t, k in combinations(members, 2)) * 2 / len(members)
     for word, asked in ((ORDER.movement, known.asked_movement), (ORDER.focus, known.asked_focus)):
         for meaning in set(asked.tolist()):
-            members = np.flatnonzero(asked == meaning)
-            total += sum(words[word, t, k] for t, k in combinations(members, 2)) * 2 / len(members)
+            members = np.flatnonzero(asked == meaning).tolist()
+            total += sum(float(words[word, t, k]) for t, k in combinations(members, 2)) * 2 / len(members)
     sizes = [int((known.movement == m).sum()) for m in movements]
     even = sum(sizes) / max(1, len(sizes))
     total -= assumed.movement_price * len(sizes) + assumed.imbalance_price * sum((n - even) ** 2 / even for n in sizes)
