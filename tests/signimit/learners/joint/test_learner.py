@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from signimit import Demonstration, DemonstrationSet, ImitationModel, WordOrder, learn
 from signimit.learners.joint.learner import word_orders
+from signimit.learners.joint.measurements import measure
+from signimit.learners.joint.objective import PEOPLE, Hypothesis, Objective, word_evidence
+from signimit.learners.joint.search import best_partition_value
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_utterance
 from signimit.teaching.languages import Language, Request
@@ -135,6 +138,17 @@ def test_the_evidence_for_the_word_order_is_that_of_the_order_chosen() -> None:
     evidence = learned(FILLERS, 0).diagnostics["word_order_evidence"]
     assert evidence.max() == evidence[learned(FILLERS, 0).word_order]
     assert np.isneginf(np.diag(evidence)).all()
+
+
+def test_the_evidence_for_an_order_is_the_objective_and_the_partition_of_words_that_mean_nothing() -> None:
+    model, seen = learned(FILLERS, 0), measure(shown(FILLERS, 0)[0])
+    words = word_evidence(seen.sign_distances, PEOPLE)
+    objective = Objective(seen, words, model.word_order, PEOPLE)
+    asked = model.understanding.requests
+    objective.start(Hypothesis(model.labels, model.focus, asked.movement, asked.focus))
+    expected = objective.value() + best_partition_value(words[1])
+    assert best_partition_value(words[1]) > 1
+    assert model.diagnostics["word_order_evidence"][model.word_order] == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("seed", [0, 1])
