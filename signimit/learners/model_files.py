@@ -46,7 +46,9 @@ def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
     if parts.prototypes is not None:
         points, _, offsets = flatten([(p, np.zeros(len(p))) for p in parts.prototypes])
         arrays |= {"prototypes": points, "prototype_offsets": offsets}
-    meta = {"method": parts.method, "policy": parts.policy_kind, "repeat": parts.repeat}
+    meta: dict[str, Any] = {"method": parts.method, "policy": parts.policy_kind}
+    if parts.repeat is not None:
+        meta["repeat"] = parts.repeat
     write_archive(path, KIND, VERSION, arrays, meta)
 
 
