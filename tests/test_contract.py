@@ -179,4 +179,5 @@ def test_the_truth_has_no_place_in_what_the_learner_sees() -> None:
         "method",
         "policy",
         "rng",
+        "repeat",
     ]
