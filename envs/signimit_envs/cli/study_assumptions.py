@@ -45,6 +45,7 @@ def study_assumptions(plan: CellOptions = PLAN) -> None:
     recordings = None
     if plan.signs is not None and plan.movements is not None:
         recordings = Recordings(StrokeLibrary.load(plan.signs), StrokeLibrary.load(plan.movements))
+    people = [recordings.signs.source, recordings.movements.source] if recordings else []
     conditions = plan.choose(assumption_conditions(recordings))
     workers = plan.workers or max(1, (os.cpu_count() or 2) - 1)
     with whole_files(plan.out) as folder:
@@ -59,7 +60,7 @@ def study_assumptions(plan: CellOptions = PLAN) -> None:
         facts = {
             "command": command_text(),
             "versions": installed_versions("signimit", "numpy", "scipy"),
-            "people": ["synthetic", *({recordings.signs.source, recordings.movements.source} if recordings else ())],
+            "people": ["synthetic", *people],
             "seeds": [plan.seeds[0], plan.seeds[-1]],
             "assumptions": PEOPLE._asdict(),
             "shares": "sessions with sound demonstrations grouped and placed right; words read right; 95 % intervals",

@@ -14,14 +14,16 @@ for package in ("tyro", "tqdm", "matplotlib", "sklearn"):
 
 
 def test_both_tables_are_printed_and_written_with_how_they_were_made(run: Any, tmp_path: Path) -> None:
-    said = run("study", "assumptions", "--sessions", 1, "--only", "3x3x1", "--workers", 1, "--out", tmp_path / "out")
+    said = run(
+        "study", "assumptions", "--sessions", 1, "--only", "3x3x1 plain", "--workers", 1, "--out", tmp_path / "out"
+    )
     for name in ("assumptions.md", "ablations.md"):
         assert (tmp_path / "out" / name).read_text().strip() in said
     rows = list(csv.DictReader((tmp_path / "out" / "settings.csv").read_text().splitlines()))
     assert {row["cell"] for row in rows} == {"synthetic 3x3x1 plain", "all"}
     assert {(row["sessions"], row["words"]) for row in rows} == {("1", "18")}
     facts = json.loads((tmp_path / "out" / "assumptions.json").read_text())
-    assert facts["command"].startswith("python -m signimit study assumptions --sessions 1 --only 3x3x1")
+    assert facts["command"].startswith("python -m signimit study assumptions --sessions 1 --only '3x3x1 plain'")
     assert facts["assumptions"] == PEOPLE._asdict()
     assert (facts["seeds"], facts["people"]) == ([0, 0], ["synthetic"])
 
