@@ -25,7 +25,7 @@ from signimit.teaching.imperfections import Imperfection
 from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
 from signimit.teaching.people.choosing import People, PeopleChooser, same_people
 from signimit.teaching.scenes import sample_hand, sample_scene
-from signimit.teaching.stroke_sampler import StrokeSource, as_source
+from signimit.teaching.stroke_sampler import StrokeSource, SynonymSource, as_source
 
 MOST_COMMANDS = 16  # of a session whose language has more pairs
 
@@ -106,6 +106,7 @@ class Condition:
         ask: Gives the commands.
         shown_times: How often each request is demonstrated; left out, `Language.repetitions` times.
         imperfections: What people do otherwise than they should, one after the other.
+        synonyms: Signs that are written in two ways, in turn, and the label of the second way.
     """
 
     name: str = "paper"
@@ -117,6 +118,7 @@ class Condition:
     ask: Ask = ask_every_pair
     shown_times: Callable[[Request], int] | None = None
     imperfections: tuple[Imperfection, ...] = ()
+    synonyms: tuple[tuple[str, str], ...] = ()
 
 
 @one_line
@@ -164,6 +166,8 @@ def compose_session(
         UnknownNameError: If the people cannot draw what the language needs.
     """
     language, signs, movements = condition.language, as_source(people.signs), as_source(people.movements)
+    if condition.synonyms:
+        signs = SynonymSource(signs, dict(condition.synonyms))
     times = condition.shown_times
     shown = language if times is None else replace(language, repetitions=max(map(times, language.seen)))
     demonstrations, truth = compose_demonstrations(shown, signs, movements, rng, condition.shown_scenes)

@@ -17,7 +17,7 @@ from signimit.teaching.imperfections import Imperfection, answer_wrongly, draw_b
 from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
 from signimit.teaching.people import synthetic_library
 from signimit.teaching.people.choosing import CROWD, People, Source, load_person
-from signimit.teaching.people.relabelling import with_both_triangles, with_synonyms, with_waver
+from signimit.teaching.people.relabelling import with_both_triangles, with_waver
 from signimit.teaching.sessions import Asker, Command, Condition, Session, compose_session
 from signimit.teaching.stroke_sampler import StrokeSampler
 
@@ -35,7 +35,7 @@ IMPERFECT: Mapping[str, tuple[Imperfection, ...]] = {
 }
 """Variants in which people do not keep to the rules."""
 DRAWN_ONCE = ("once", AS_WITH_A_MOUSE)
-SYNONYMS = dict(zip(FOCUS_SIGNS[:3], PAPER_LANGUAGE.prototypes, strict=True))  # second way of writing by sign
+SYNONYMS = tuple(zip(FOCUS_SIGNS[:3], PAPER_LANGUAGE.prototypes, strict=True))  # second way of writing by sign
 REAL_MOVEMENTS = (
     "triangle up", "triangle down", "circle", "rectangle", "star", "circle, other way", "pigtail",
 )  # fmt: skip
@@ -114,11 +114,11 @@ def study_condition(
             crowd=variant == "mixed",
             noise=NOISE if variant == "noise" else 0.0,
             other_shapes=other_shapes,
-            synonyms=SYNONYMS if variant == "synonyms" else {},
         ),
         ask=_ask_every_pair_in_order,
         shown_times=_unbalanced if variant == "unbalanced" else None,
         imperfections=IMPERFECT.get(variant, ()) + beside,
+        synonyms=SYNONYMS if variant == "synonyms" else (),
     )
 
 
@@ -159,7 +159,6 @@ def _study_people(
     crowd: bool,
     noise: float,
     other_shapes: tuple[str, ...],
-    synonyms: Mapping[str, str],
 ) -> People[StrokeLibrary]:
     """Choose one signer and one mover, or a crowd of each; all is drawn from one generator, ``who``."""
     shapes = (*language.movements, *other_shapes)
@@ -174,7 +173,7 @@ def _study_people(
         movements, _ = load_person(Source(recordings.movements), shapes, who)
     if noise:
         signs, movements = with_waver(signs, who, noise), with_waver(movements, who, noise)
-    return People(language, with_synonyms(signs, synonyms), movements)
+    return People(language, signs, movements)
 
 
 def _ask_every_pair_in_order(asker: Asker) -> list[Command]:

@@ -61,21 +61,6 @@ def with_mirror_images(library: StrokeLibrary, names: Mapping[str, str]) -> Stro
     return library + images
 
 
-def with_synonyms(library: StrokeLibrary, signs: Mapping[str, str]) -> StrokeLibrary:
-    """Let some signs be written in a second way: strokes of another label count for both.
-
-    Args:
-        library: Strokes.
-        signs: Label of the second way by label, e.g. ``{"1": "7"}``: a "1" is now and then written like a "7".
-
-    Raises:
-        UnknownNameError: If the library lacks a label.
-    """
-    for label, second in signs.items():
-        library = library + renamed(selected(library, labels=(second,)), {second: label})
-    return library
-
-
 def with_both_triangles(library: StrokeLibrary) -> StrokeLibrary:
     """Call apex-up "triangle" "triangle up", and mirror it where there is no "triangle down"."""
     if "triangle" in library.labels and "triangle up" not in library.labels:

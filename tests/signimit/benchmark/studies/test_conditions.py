@@ -100,13 +100,17 @@ def test_once_the_hand_draws_half_as_long_and_at_home_it_ends_where_it_began() -
     assert not mouse.truth.sound.all()
 
 
-def test_each_object_has_two_signs() -> None:
-    condition = small("synonyms")
-    people = condition.choose_people(condition.language, 16, *np.random.default_rng(0).spawn(2))
-    for first, second in zip("123", "789", strict=True):
-        written = [stroke.points.tobytes() for stroke in people.signs.select(first)]
-        assert {stroke.points.tobytes() for stroke in people.signs.select(second)} < set(written)
-        assert len(written) == 2 * len(people.signs.select(second))
+def test_each_object_has_two_signs_and_both_are_shown() -> None:
+    rng = np.random.default_rng(0)
+    signs = synthetic_library("0123456789", samples=6, rng=rng)
+    movements = synthetic_library(("triangle up", "triangle down"), samples=8, rng=rng)
+    session = compose_study_session(study_condition(2, 3, 1, "synonyms", Recordings(signs, movements)), 0)
+    label_of = {stroke.points.tobytes(): label for stroke, label in zip(signs, signs.labels, strict=True)}
+    shown = {
+        (int(focus), label_of[demonstration.signs[0].tobytes()])
+        for focus, demonstration in zip(session.truth.focus, session.demonstrations, strict=True)
+    }
+    assert shown == {(0, "1"), (0, "7"), (1, "2"), (1, "8"), (2, "3"), (2, "9")}
 
 
 def test_where_all_movements_are_taught_none_is_beside_the_point() -> None:

@@ -6,14 +6,7 @@ from numpy.testing import assert_allclose
 
 from signimit import Stroke, StrokeLibrary, UnknownNameError
 from signimit.teaching.people import synthetic_library
-from signimit.teaching.people.relabelling import (
-    renamed,
-    selected,
-    with_both_triangles,
-    with_mirror_images,
-    with_synonyms,
-    with_waver,
-)
+from signimit.teaching.people.relabelling import renamed, selected, with_both_triangles, with_mirror_images, with_waver
 
 
 @pytest.fixture
@@ -72,13 +65,3 @@ def test_a_triangle_down_is_the_mirror_of_an_apex_up_triangle(library: StrokeLib
 def test_triangles_that_have_a_direction_stay_as_they_are() -> None:
     library = synthetic_library(["triangle up", "triangle down"], samples=2, rng=np.random.default_rng(0))
     assert with_both_triangles(library) is library
-
-
-def test_a_synonym_adds_strokes_of_another_label_and_takes_none_away() -> None:
-    library = synthetic_library(["1", "7"], writers=2, samples=3, rng=np.random.default_rng(0))
-    both = with_synonyms(library, {"1": "7"})
-    assert [both.labels.count(label) for label in ("1", "7")] == [12, 6]
-    second = [stroke.points.tobytes() for stroke in both.select("1")][6:]
-    assert second == [stroke.points.tobytes() for stroke in library.select("7")]
-    with pytest.raises(UnknownNameError, match="'8'"):
-        with_synonyms(library, {"1": "8"})
