@@ -6,7 +6,7 @@ The `GroundTruth` is for evaluators. Nothing in a `DemonstrationSet` leads to it
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeVar
 
 import numpy as np
@@ -22,7 +22,6 @@ from signimit.teaching.scenes import drawn_path, reaching_path, sample_hand, sam
 from signimit.teaching.stroke_sampler import StrokeSource, as_source
 
 HALF_SIZE = (0.09, 0.12)  # m, half the larger side of a drawn movement
-LOOPS = 2  # how often a demonstrator draws the movement
 Strokes = StrokeLibrary | StrokeSource
 SceneSampler = Callable[[np.random.Generator, int], NDArray[np.float64]]
 Scalar = TypeVar("Scalar", bound=np.generic)
@@ -39,17 +38,21 @@ class GroundTruth:
         focus: Index of the object, shape (N,); read-only.
         templates: For each movement the loops that were demonstrated, each (T, 2), m, object's frame;
             read-only.
+        spoilt: Numbers of the demonstrations in which the hand does not do what the words ask for, shape (S,);
+            read-only. Movement and focus are what they ask for.
     """
 
     language: Language
     movement: NDArray[np.int64]
     focus: NDArray[np.int64]
     templates: tuple[tuple[NDArray[np.float64], ...], ...]
+    spoilt: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
     def __post_init__(self) -> None:
         """Copy and make read-only."""
         object.__setattr__(self, "movement", _read_only(self.movement))
         object.__setattr__(self, "focus", _read_only(self.focus))
+        object.__setattr__(self, "spoilt", _read_only(self.spoilt))
         templates = tuple(tuple(_read_only(drawing) for drawing in drawings) for drawings in self.templates)
         object.__setattr__(self, "templates", templates)
 
@@ -63,6 +66,16 @@ class GroundTruth:
         """What was asked for in each demonstration."""
         return tuple(Request(int(m), int(f)) for m, f in zip(self.movement, self.focus, strict=True))
 
+    @property
+    def sound(self) -> NDArray[np.bool_]:
+        """Whether each demonstration does what it asks for, shape (N,)."""
+        return ~np.isin(np.arange(len(self.movement)), self.spoilt)
+
+    def select(self, kept: NDArray[np.int64]) -> GroundTruth:
+        """Return the truth of some demonstrations, by their numbers, shape (K,)."""
+        spoilt = np.flatnonzero(~self.sound[kept])
+        return GroundTruth(self.language, self.movement[kept], self.focus[kept], self.templates, spoilt)
+
 
 def compose_demonstrations(
     language: Language,
@@ -74,7 +87,7 @@ def compose_demonstrations(
     """Make the demonstrations of a session, in random order.
 
     Each is an utterance, a random scene, and a hand that starts anywhere, reaches for the movement's first point and
-    draws the movement about the object asked for, twice.
+    draws the movement about the object asked for, `Language.rounds` times.
 
     Args:
         language: What is spoken.
@@ -154,15 +167,19 @@ def compose_utterance(
 def compose_loops(
     language: Language, movements: Strokes, movement: int, rng: np.random.Generator
 ) -> list[NDArray[np.float64]]:
-    """Let the demonstrator draw a movement twice about an object at the origin, each (T, 2), m.
+    """Let the demonstrator draw a movement about an object at the origin, twice in most languages, each (T, 2), m."""
+    return draw_loops(movements, language.movements[movement], language.rounds, rng)
 
-    Both are of one random size and by one writer, two different strokes where there are two. A reach for a goal is made
+
+def draw_loops(movements: Strokes, label: str, rounds: int, rng: np.random.Generator) -> list[NDArray[np.float64]]:
+    """Let the demonstrator draw what has this label so many times about the origin, each (T, 2), m.
+
+    All are of one random size and by one writer, different strokes where there are as many. A reach for a goal is made
     once.
     """
-    label = language.movements[movement]
     goal = label in GOAL_LABELS
     half_size = rng.uniform(*HALF_SIZE)
-    strokes = as_source(movements).draw_several(label, rng, 1 if goal else LOOPS)
+    strokes = as_source(movements).draw_several(label, rng, 1 if goal else rounds)
     return [drawn_path(stroke, half_size, end_at_object=goal) for stroke in strokes]
 
 

@@ -36,6 +36,7 @@ class Language:
         prototypes: Labels of the signs that span the sign space.
         unseen: Requests that are never demonstrated. Left out: movement m about object m mod O, the paper's diagonal.
         repetitions: How often each other request is demonstrated.
+        rounds: How often a demonstrator draws a movement in one demonstration.
     """
 
     focus_signs: tuple[str, ...] = ("1", "2", "3")
@@ -47,6 +48,7 @@ class Language:
     prototypes: tuple[str, ...] = ("7", "8", "9")
     unseen: tuple[Request, ...] | None = None
     repetitions: int = 2
+    rounds: int = 2
 
     def __post_init__(self) -> None:
         """Check that every word has a place and every movement a sign.
@@ -67,6 +69,8 @@ class Language:
                 f"two places out of {list(range(self.words))}",
                 f"{self.focus_word}, {self.movement_word}",
             )
+        if self.rounds < 1:
+            raise InvalidInputError("language: rounds", "at least 1", f"{self.rounds}")
         if self.repetitions < 1 or not self.seen:
             raise InvalidInputError("language", "at least one demonstration", f"{len(self.seen)} x {self.repetitions}")
 

@@ -21,10 +21,11 @@ from signimit.teaching.composition import (
     compose_prototypes,
     compose_utterance,
 )
+from signimit.teaching.imperfections import Imperfection
 from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
 from signimit.teaching.people.choosing import People, PeopleChooser, same_people
 from signimit.teaching.scenes import sample_hand, sample_scene
-from signimit.teaching.stroke_sampler import StrokeSource, as_source
+from signimit.teaching.stroke_sampler import StrokeSource, SynonymSource, as_source
 
 MOST_COMMANDS = 16  # of a session whose language has more pairs
 
@@ -104,6 +105,8 @@ class Condition:
         asked_scenes: Draws where objects are in commands.
         ask: Gives the commands.
         shown_times: How often each request is demonstrated; left out, `Language.repetitions` times.
+        imperfections: What people do otherwise than they should, one after the other.
+        synonyms: Signs that are written in two ways, in turn, and the label of the second way.
     """
 
     name: str = "paper"
@@ -114,6 +117,8 @@ class Condition:
     asked_scenes: SceneSampler = sample_scene
     ask: Ask = ask_every_pair
     shown_times: Callable[[Request], int] | None = None
+    imperfections: tuple[Imperfection, ...] = ()
+    synonyms: tuple[tuple[str, str], ...] = ()
 
 
 @one_line
@@ -160,12 +165,16 @@ def compose_session(
     Raises:
         UnknownNameError: If the people cannot draw what the language needs.
     """
-    language, signs = condition.language, as_source(people.signs)
+    language, signs, movements = condition.language, as_source(people.signs), as_source(people.movements)
+    if condition.synonyms:
+        signs = SynonymSource(signs, dict(condition.synonyms))
     times = condition.shown_times
     shown = language if times is None else replace(language, repetitions=max(map(times, language.seen)))
-    demonstrations, truth = compose_demonstrations(shown, signs, people.movements, rng, condition.shown_scenes)
+    demonstrations, truth = compose_demonstrations(shown, signs, movements, rng, condition.shown_scenes)
     if times is not None:
         demonstrations, truth = _keep_first(demonstrations, truth, times)
+    for imperfection in condition.imperfections:
+        demonstrations, truth = imperfection(demonstrations, truth, movements, rng)
     if prototypes is None:
         prototypes = compose_prototypes(language, signs, rng)
     asking = signs if people.asking is None else as_source(people.asking)
@@ -189,5 +198,4 @@ def _keep_first(
         counts[request] += 1
         if counts[request] <= times(request):
             kept.append(t)
-    fewer = DemonstrationSet([demonstrations[t] for t in kept])
-    return fewer, GroundTruth(truth.language, truth.movement[kept], truth.focus[kept], truth.templates)
+    return DemonstrationSet([demonstrations[t] for t in kept]), truth.select(np.array(kept))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
+from collections.abc import Mapping
 from typing import Protocol
 
 import numpy as np
@@ -94,6 +95,24 @@ class ReplacingSampler:
     def draw_several(self, label: str, rng: np.random.Generator, count: int) -> tuple[Stroke, ...]:
         """Draw so many strokes of a label, by any writers."""
         return tuple(self.draw(label, rng) for _ in range(count))
+
+
+class SynonymSource:
+    """Draws some labels in two ways, in turn: what people do who have two signs for one thing."""
+
+    def __init__(self, strokes: StrokeSource, synonyms: Mapping[str, str]) -> None:
+        """Take strokes from a source; ``synonyms`` has the label of the second way by label."""
+        self._strokes, self._synonyms, self._drawn = strokes, synonyms, Counter[str]()
+
+    def draw(self, label: str, rng: np.random.Generator) -> Stroke:
+        """Draw a stroke of a label, or of its synonym."""
+        return self.draw_several(label, rng, 1)[0]
+
+    def draw_several(self, label: str, rng: np.random.Generator, count: int) -> tuple[Stroke, ...]:
+        """Draw strokes of a label, or of its synonym, all in one way and by one writer."""
+        self._drawn[label] += 1
+        second = self._synonyms.get(label, label) if self._drawn[label] % 2 == 0 else label
+        return self._strokes.draw_several(second, rng, count)
 
 
 def as_source(strokes: StrokeLibrary | StrokeSource) -> StrokeSource:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -12,14 +13,29 @@ from signimit.display import one_line
 from signimit.exceptions import InvalidInputError
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.composition import compose_prototypes, compose_utterance
-from signimit.teaching.languages import Language, Request
+from signimit.teaching.imperfections import Imperfection, answer_wrongly, draw_beside_the_point, go_home
+from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
 from signimit.teaching.people import synthetic_library
 from signimit.teaching.people.choosing import CROWD, People, Source, load_person
-from signimit.teaching.people.relabelling import with_waver
+from signimit.teaching.people.relabelling import with_both_triangles, with_waver
 from signimit.teaching.sessions import Asker, Command, Condition, Session, compose_session
 from signimit.teaching.stroke_sampler import StrokeSampler
 
 VARIANTS = ("plain", "noise", "unbalanced", "swapped", "filler", "constant filler", "unseen third", "mixed")
+BESIDE = "1 beside the point"
+AS_WITH_A_MOUSE = "once, goes home, 1 wrong"
+IMPERFECT: Mapping[str, tuple[Imperfection, ...]] = {
+    "once": (),
+    "goes home": (go_home,),
+    "1 wrong": (answer_wrongly,),
+    "2 wrong": (partial(answer_wrongly, count=2),),
+    BESIDE: (),  # what is drawn depends on what the people can draw
+    "synonyms": (),
+    AS_WITH_A_MOUSE: (answer_wrongly, go_home),
+}
+"""Variants in which people do not keep to the rules."""
+DRAWN_ONCE = ("once", AS_WITH_A_MOUSE)
+SYNONYMS = tuple(zip(FOCUS_SIGNS[:3], PAPER_LANGUAGE.prototypes, strict=True))  # second way of writing by sign
 REAL_MOVEMENTS = (
     "triangle up", "triangle down", "circle", "rectangle", "star", "circle, other way", "pigtail",
 )  # fmt: skip
@@ -56,7 +72,7 @@ def study_condition(
         movements: How many.
         objects: How many.
         repetitions: Demonstrations of each pair that is shown; ignored where counts are unbalanced.
-        variant: One of `VARIANTS`.
+        variant: One of `VARIANTS` or `IMPERFECT`.
         recordings: Whose strokes; synthetic people draw where there are none.
 
     Raises:
@@ -66,8 +82,12 @@ def study_condition(
     if not (1 <= movements <= len(labels) and 1 <= objects <= len(FOCUS_SIGNS)):
         expected = f"up to {len(labels)} movements and {len(FOCUS_SIGNS)} objects"
         raise InvalidInputError("condition", expected, f"{movements} and {objects}")
-    if variant not in VARIANTS:
-        raise InvalidInputError("condition: variant", ", ".join(VARIANTS), repr(variant))
+    if variant not in (*VARIANTS, *IMPERFECT):
+        raise InvalidInputError("condition: variant", ", ".join((*VARIANTS, *IMPERFECT)), repr(variant))
+    other_shapes = labels[movements : movements + 2] if variant == BESIDE else ()
+    if variant == BESIDE and not other_shapes:
+        raise InvalidInputError("condition", "a movement that is left to be beside the point", f"all {movements} taken")
+    beside = (partial(draw_beside_the_point, labels=other_shapes),) if other_shapes else ()
     places = {"swapped": (1, 0), "filler": (2, 0), "constant filler": (2, 0)}
     fillers = {"filler": FILLER_SIGNS, "constant filler": FILLER_SIGNS[:1]}
     focus_word, movement_word = places.get(variant, (0, 1))
@@ -81,6 +101,7 @@ def study_condition(
         movement_word=movement_word,
         unseen=tuple(p for p in pairs if sum(p) % 3 == 0) if variant == "unseen third" else (),
         repetitions=repetitions,
+        rounds=1 if variant in DRAWN_ONCE else PAPER_LANGUAGE.rounds,
     )
     who = "synthetic" if recordings is None else "real"
     return Condition(
@@ -88,10 +109,16 @@ def study_condition(
         change=f"{movements} movements, {objects} objects, {variant}",
         language=language,
         choose_people=partial(
-            _study_people, recordings=recordings, crowd=variant == "mixed", noise=NOISE if variant == "noise" else 0.0
+            _study_people,
+            recordings=recordings,
+            crowd=variant == "mixed",
+            noise=NOISE if variant == "noise" else 0.0,
+            other_shapes=other_shapes,
         ),
         ask=_ask_every_pair_in_order,
         shown_times=_unbalanced if variant == "unbalanced" else None,
+        imperfections=IMPERFECT.get(variant, ()) + beside,
+        synonyms=SYNONYMS if variant == "synonyms" else (),
     )
 
 
@@ -131,17 +158,19 @@ def _study_people(
     recordings: Recordings | None,
     crowd: bool,
     noise: float,
+    other_shapes: tuple[str, ...],
 ) -> People[StrokeLibrary]:
     """Choose one signer and one mover, or a crowd of each; all is drawn from one generator, ``who``."""
+    shapes = (*language.movements, *other_shapes)
     if recordings is None:
         writers = CROWD if crowd else 1
         signs = synthetic_library(language.signs, writers=writers, samples=samples // writers, rng=who)
-        movements = synthetic_library(language.movements, writers=writers, samples=samples, rng=who)
+        movements = synthetic_library(shapes, writers=writers, samples=samples, rng=who)
     elif crowd:
-        signs, movements = recordings.signs, recordings.movements
+        signs, movements = recordings.signs, with_both_triangles(recordings.movements)
     else:
         signs, _ = load_person(Source(recordings.signs), language.signs, who)
-        movements, _ = load_person(Source(recordings.movements), language.movements, who)
+        movements, _ = load_person(Source(recordings.movements), shapes, who)
     if noise:
         signs, movements = with_waver(signs, who, noise), with_waver(movements, who, noise)
     return People(language, signs, movements)

@@ -12,7 +12,7 @@ from signimit import paths
 from signimit.exceptions import InvalidInputError
 from signimit.policies.base import CONTROL_PERIOD, Array
 from signimit.strokes import Stroke, StrokeLibrary
-from signimit.teaching.composition import HALF_SIZE, LOOPS
+from signimit.teaching.composition import HALF_SIZE
 from signimit.teaching.languages import PAPER_LANGUAGE
 from signimit.teaching.people import synthetic_library
 from signimit.teaching.people.choosing import Source, load_person
@@ -50,7 +50,7 @@ class Variation:
     senses: tuple[int, int, int] = CIRCLE_AGAINST
     shape: str = "drawn"
     pace: str = "own"
-    rounds: int = LOOPS
+    rounds: int = PAPER_LANGUAGE.rounds
     density: float = 1.0
     one_drawing: bool = False
     waver: float = 0.0

@@ -48,7 +48,7 @@ class JointLearner(Learner):
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, rng: np.random.Generator
     ) -> Understanding:
         """Compare all word orders and return the best explanation; nothing is random."""
-        return self._explain(measure(demonstrations, self.drawings))
+        return self.explain_measurements(measure(demonstrations, self.drawings))
 
     def extend(self, demonstrations: DemonstrationSet, understanding: Understanding) -> Understanding:
         """Take one more demonstration, the last, into account.
@@ -57,8 +57,10 @@ class JointLearner(Learner):
         """
         known = understanding.evidence
         if isinstance(known, Measurements):
-            return self._explain(extend_measurements(demonstrations, known, self.drawings))
-        return self._explain(measure(demonstrations, self.drawings))  # a model of version 0.1.0 has other measurements
+            return self.explain_measurements(extend_measurements(demonstrations, known, self.drawings))
+        return self.explain_measurements(
+            measure(demonstrations, self.drawings)
+        )  # a model of version 0.1.0 has other measurements
 
     def reader(
         self, demonstrations: DemonstrationSet, prototypes: Sequence[ArrayLike] | None, understanding: Understanding
@@ -85,7 +87,8 @@ class JointLearner(Learner):
                 return kind(*(finite_array(arrays[n], n.replace("_", " "), shapes[n]) for n in kind._fields))
         return None
 
-    def _explain(self, seen: Measurements) -> Understanding:
+    def explain_measurements(self, seen: Measurements) -> Understanding:
+        """Compare all word orders and return the best explanation of what was measured."""
         words = word_evidence(seen.sign_distances, self.assumed, self.signs)
         idle = [best_partition_value(word) for word in words] if len(words) > 2 else [0.0] * len(words)
         found = []

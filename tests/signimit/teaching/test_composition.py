@@ -1,6 +1,7 @@
 """Sessions composed from strokes: what is in them, and that the truth cannot be reached from them."""
 
 import gc
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -182,3 +183,11 @@ def test_requests_outside_the_language_are_refused(signs: StrokeLibrary) -> None
     for movement, focus in ((3, 0), (0, 3), (-1, 0)):
         with pytest.raises(InvalidInputError, match="an index below 3"):
             compose_utterance(PAPER_LANGUAGE, signs, movement, focus, np.random.default_rng(0))
+
+
+def test_a_language_says_how_often_a_movement_is_drawn(movements: StrokeLibrary) -> None:
+    for rounds in (1, 2, 3):
+        language = replace(PAPER_LANGUAGE, rounds=rounds)
+        assert len(compose_loops(language, movements, 0, np.random.default_rng(0))) == rounds
+    with pytest.raises(InvalidInputError, match="language: rounds: expected at least 1, found 0"):
+        replace(PAPER_LANGUAGE, rounds=0)

@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from signimit import Stroke, StrokeLibrary, UnknownNameError
-from signimit.teaching.stroke_sampler import ReplacingSampler, StrokeSampler, as_source
+from signimit.teaching.people import synthetic_library
+from signimit.teaching.stroke_sampler import ReplacingSampler, StrokeSampler, SynonymSource, as_source
 
 
 def library(**counts: int) -> StrokeLibrary:
@@ -70,3 +71,12 @@ def test_with_replacement_the_generator_alone_decides() -> None:
     assert len({id(s) for s in first}) == 6
     with pytest.raises(UnknownNameError, match="Unknown label 'y'; known are x"):
         sampler.draw("y", np.random.default_rng(0))
+
+
+def test_two_ways_of_one_sign_come_in_turn_and_other_signs_as_they_are() -> None:
+    person = synthetic_library("17", samples=4, rng=np.random.default_rng(0))
+    label_of = {stroke.points.tobytes(): label for stroke, label in zip(person, person.labels, strict=True)}
+    source, rng = SynonymSource(StrokeSampler(person), {"1": "7"}), np.random.default_rng(0)
+    drawn = [label_of[source.draw(label, rng).points.tobytes()] for label in "11711"]
+    assert drawn == ["1", "7", "7", "1", "7"]
+    assert {label_of[stroke.points.tobytes()] for stroke in source.draw_several("1", rng, 2)} == {"1"}

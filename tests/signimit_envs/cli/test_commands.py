@@ -38,6 +38,7 @@ def test_every_module_is_a_command() -> None:
         "result-tables",
         "fuzz-files",
         "fuzz-studio",
+        "study-assumptions",
         "study-drawing-weights",
         "study-judge",
         "study-paper",

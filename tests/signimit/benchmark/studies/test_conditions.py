@@ -5,8 +5,16 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from signimit import InvalidInputError
-from signimit.benchmark.studies.conditions import Recordings, compose_study_session, study_condition, study_conditions
+from signimit import InvalidInputError, StrokeLibrary
+from signimit.benchmark.studies.conditions import (
+    AS_WITH_A_MOUSE,
+    BESIDE,
+    IMPERFECT,
+    Recordings,
+    compose_study_session,
+    study_condition,
+    study_conditions,
+)
 from signimit.teaching.people import synthetic_library
 from signimit.teaching.sessions import Condition
 
@@ -15,7 +23,7 @@ def small(variant: str) -> Condition:
     return study_condition(3, 3, 1, variant)
 
 
-@pytest.mark.parametrize("variant", ["plain", "noise", "unbalanced", "mixed"])
+@pytest.mark.parametrize("variant", ["plain", "noise", "unbalanced", "mixed", *IMPERFECT])
 def test_the_same_condition_and_seed_give_the_same_session(variant: str) -> None:
     first, again = (compose_study_session(small(variant), 3) for _ in range(2))
     for a, b in zip(first.demonstrations, again.demonstrations, strict=True):
@@ -75,3 +83,45 @@ def test_conditions_have_names_of_their_own_and_those_of_real_people_come_last()
 def test_conditions_that_nobody_can_play_are_refused(changes: dict[str, object]) -> None:
     with pytest.raises(InvalidInputError, match="condition"):
         study_condition(**({"movements": 2, "objects": 2, "repetitions": 1} | changes))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("variant", "spoilt"), [("once", 0), ("1 wrong", 1), ("2 wrong", 2), (BESIDE, 1)])
+def test_so_many_demonstrations_are_spoilt(variant: str, spoilt: int) -> None:
+    assert len(compose_study_session(small(variant), 0).truth.spoilt) == spoilt
+
+
+def test_once_the_hand_draws_half_as_long_and_at_home_it_ends_where_it_began() -> None:
+    plain, once, home, mouse = (
+        compose_study_session(small(variant), 0) for variant in ("plain", "once", "goes home", AS_WITH_A_MOUSE)
+    )
+    lengths = [sum(len(d.hand) for d in session.demonstrations) for session in (plain, once)]
+    assert lengths[1] < 0.7 * lengths[0]
+    assert all(np.array_equal(d.hand[0], d.hand[-1]) for s in (home, mouse) for d in s.demonstrations)
+    assert not mouse.truth.sound.all()
+
+
+def test_each_object_has_two_signs_and_both_are_shown() -> None:
+    rng = np.random.default_rng(0)
+    signs = synthetic_library("0123456789", samples=6, rng=rng)
+    movements = synthetic_library(("triangle up", "triangle down"), samples=8, rng=rng)
+    session = compose_study_session(study_condition(2, 3, 1, "synonyms", Recordings(signs, movements)), 0)
+    label_of = {stroke.points.tobytes(): label for stroke, label in zip(signs, signs.labels, strict=True)}
+    shown = {
+        (int(focus), label_of[demonstration.signs[0].tobytes()])
+        for focus, demonstration in zip(session.truth.focus, session.demonstrations, strict=True)
+    }
+    assert shown == {(0, "1"), (0, "7"), (1, "2"), (1, "8"), (2, "3"), (2, "9")}
+
+
+def test_where_all_movements_are_taught_none_is_beside_the_point() -> None:
+    with pytest.raises(InvalidInputError, match="all 8 taken"):
+        study_condition(8, 3, 1, BESIDE)
+
+
+def test_a_crowd_of_real_people_may_have_drawn_apex_up_triangles_only() -> None:
+    rng = np.random.default_rng(0)
+    signs = synthetic_library("0123456789", samples=3, writers=2, rng=rng)
+    drawn = synthetic_library(("triangle up",), samples=4, writers=2, rng=rng)
+    movements = StrokeLibrary(drawn.strokes, ("triangle",) * len(drawn), drawn.writers, "")
+    condition = study_condition(2, 2, 1, "mixed", Recordings(signs, movements))
+    assert len(compose_study_session(condition, 0).demonstrations) == 4
