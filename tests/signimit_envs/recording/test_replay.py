@@ -48,6 +48,34 @@ def test_another_model_is_noticed(recording: Recording) -> None:
         find_divergence(replace(recording.origin, model_xml="<mujoco><nonsense/></mujoco>"), recording[0])
 
 
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({'joint="wrist"': 'joint="elbow"'}, None),  # odd, but it can be observed
+        ({"object_1": "lamp", 'body name="table"': 'body name="object_1"'}, "objects that are mocap bodies"),
+        ({"object_": "thing_"}, "a site 'hand' and 4 objects, by name, found no 'object_0'"),
+    ],
+)
+def test_only_a_tabletop_is_observed(recording: Recording, changes: dict[str, str], told: str | None) -> None:
+    xml = recording.origin.model_xml
+    for old, new in changes.items():
+        assert old in xml
+        xml = xml.replace(old, new)
+    origin = replace(recording.origin, model_xml=xml)
+    if told is None:
+        np.testing.assert_array_equal(observe_states(origin, recording[0])["hand"], recording[0].observations["hand"])
+        return
+    with pytest.raises(si.FileFormatError, match=told):
+        observe_states(origin, recording[0])
+
+
+def test_a_model_without_memory_is_told_in_one_sentence(recording: Recording) -> None:
+    """MuJoCo compiles it, and fails in the first posture at the limits of the joints."""
+    starved = replace(recording.origin, model_xml=recording.origin.model_xml.replace('memory="1M"', 'memory="2K"'))
+    with pytest.raises(si.FileFormatError, match="recorded model: expected at least 65536 bytes of memory, found 2048"):
+        find_divergence(starved, recording[0])
+
+
 @pytest.mark.parametrize("line", ['<include file="/etc/hostname"/>', "<asset><mesh name='a' file = 'a.stl'/></asset>"])
 def test_a_model_that_names_files_of_this_disk_is_refused(recording: Recording, line: str) -> None:
     hostile = replace(recording.origin, model_xml=f"<mujoco>{line}</mujoco>")
