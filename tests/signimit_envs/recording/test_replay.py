@@ -69,6 +69,32 @@ def test_only_a_tabletop_is_observed(recording: Recording, changes: dict[str, st
         observe_states(origin, recording[0])
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        '<replicate count="3000000"><geom size=".1"/></replicate>',
+        '<flexcomp name="f" type="grid" count="300 300 300" spacing="1 1 1" dim="3"/>',
+        '< composite type="cable" count="1000000 1 1"/>',
+    ],
+)
+def test_a_model_that_would_take_all_memory_is_not_compiled(recording: Recording, line: str) -> None:
+    xml = recording.origin.model_xml.replace("<worldbody>", f"<worldbody>{line}")
+    with pytest.raises(si.FileFormatError, match="recorded model: expected bodies written one by one, found the el"):
+        replace(recording.origin, model_xml=xml).compile_model()
+
+
+@pytest.mark.parametrize("error", [MemoryError(), RuntimeError("Caught an unknown exception!"), ValueError("XML")])
+def test_what_mujoco_says_of_a_model_is_one_sentence(
+    recording: Recording, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def fail(*_: Any) -> None:
+        raise error
+
+    monkeypatch.setattr("signimit_envs.recording.origin.mujoco.MjModel.from_xml_string", fail)
+    with pytest.raises(si.FileFormatError, match=r"recorded model: expected MJCF that compiles, found \w"):
+        recording.origin.compile_model()
+
+
 def test_a_model_without_memory_is_told_in_one_sentence(recording: Recording) -> None:
     """MuJoCo compiles it, and fails in the first posture at the limits of the joints."""
     starved = replace(recording.origin, model_xml=recording.origin.model_xml.replace('memory="1M"', 'memory="2K"'))
