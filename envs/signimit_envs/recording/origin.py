@@ -28,6 +28,7 @@ STATE_SPEC = mujoco.mjtState.mjSTATE_INTEGRATION
 _MAX_SUBSTEPS = 1000  # physics steps in a control step that a file may ask for
 _MAX_FILES = 100  # assets that a file may name
 _FILE = re.compile(r"""\bfile\w*\s*=\s*["']([^"']+)""")  # names of files that MuJoCo would read from this disk
+_MULTIPLIED = re.compile(r"<\s*(replicate|composite|flexcomp)\b")  # MJCF that makes any number of bodies of one line
 _TRUSTED = ("signimit_envs.", "gymnasium.wrappers.")  # modules whose code a file may name
 
 HEADER, MODEL = "recording.json", "model.xml"
@@ -79,15 +80,20 @@ class RecordingOrigin:
         """Compile the recorded model.
 
         Raises:
-            FileFormatError: If the MJCF does not compile, or names files that are not in the recording.
+            FileFormatError: If the MJCF does not compile, names files that are not in the recording, or has elements
+                that are made many times over, which could take all memory.
         """
         for name in _FILE.findall(self.model_xml):
             if name not in self.assets:
                 raise FileFormatError("recorded model", "no files but those recorded with it", repr(name))
+        multiplied = _MULTIPLIED.search(self.model_xml)
+        if multiplied:
+            raise FileFormatError("recorded model", "bodies written one by one", f"the element {multiplied[1]!r}")
         try:
             return mujoco.MjModel.from_xml_string(self.model_xml, dict(self.assets))
-        except ValueError as error:
-            raise FileFormatError("recorded model", "MJCF that compiles", " ".join(str(error).split())) from None
+        except (ValueError, RuntimeError, MemoryError, mujoco.FatalError) as error:  # the last three without memory
+            found = " ".join(str(error).split()) or type(error).__name__
+            raise FileFormatError("recorded model", "MJCF that compiles", found) from None
 
     def make_spec(self) -> EnvSpec:
         """Return the environment's specification, for `gymnasium.make`.

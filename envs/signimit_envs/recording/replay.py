@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import FileFormatError, UnknownNameError
-from signimit_envs.arm.scene import object_bodies
-from signimit_envs.recording.episodes import RecordedEpisode
+from signimit_envs.arm.scene import OBJECT_COUNTS, object_bodies
+from signimit_envs.recording.episodes import RecordedEpisode, Recording
 from signimit_envs.recording.origin import STATE_SPEC, RecordingOrigin
 from signimit_envs.video.rendering import OffscreenView
+
+_LEAST_MEMORY = 2**16  # bytes a simulation may take; with less MuJoCo fails in some postures, which take up to 2 kB
 
 
 class Divergence(NamedTuple):
@@ -64,10 +66,10 @@ def observe_states(origin: RecordingOrigin, episode: RecordedEpisode) -> dict[st
         ``joint_velocities`` (T + 1, 3), rad/s; ``objects`` (T + 1, O, 2), m.
 
     Raises:
-        FileFormatError: If the states are not those of the model.
+        FileFormatError: If the states are not those of the model, or it is not that of the tabletop.
     """
     model, data = _prepared(origin, episode)
-    hand, bodies = model.site("hand").id, object_bodies(model)
+    hand, bodies = _observed_parts(model)
     jacobian = np.zeros((3, model.nv))
     rows: list[dict[str, Any]] = []
     for _ in _play(model, data, episode):
@@ -111,6 +113,21 @@ def film_states(
             yield view.frame(data, camera)
 
 
+def check_recording(recording: Recording, where: str) -> Recording:
+    """Return a recording whose every episode can be replayed, observed and filmed; readers of files end with this.
+
+    Raises:
+        FileFormatError: If its model does not compile, is not that of the tabletop, or has other states or controls
+            than were recorded; the message begins with ``where``.
+    """
+    try:
+        model, _ = _prepared(recording.origin, recording[0])  # all have rows of the same shapes
+        _observed_parts(model)
+    except FileFormatError as error:
+        raise error.inside(where) from None
+    return recording
+
+
 def _prepared(origin: RecordingOrigin, episode: RecordedEpisode) -> tuple[mujoco.MjModel, mujoco.MjData]:
     """Compile the recorded model, and check that the episode's states and controls are its own."""
     model = origin.compile_model()
@@ -119,7 +136,29 @@ def _prepared(origin: RecordingOrigin, episode: RecordedEpisode) -> tuple[mujoco
     if sizes != found:
         expected = f"states of {sizes[0]} and controls of {sizes[1]} numbers, as the model has"
         raise FileFormatError("recorded episode", expected, f"{found[0]} and {found[1]}")
+    if model.narena < _LEAST_MEMORY:
+        raise FileFormatError("recorded model", f"at least {_LEAST_MEMORY} bytes of memory", f"{model.narena}")
     return model, mujoco.MjData(model)
+
+
+def _observed_parts(model: mujoco.MjModel) -> tuple[int, list[int]]:
+    """Return the number of the hand's site and the mocap numbers of the objects.
+
+    Raises:
+        FileFormatError: If the model is not that of a tabletop with an arm of three joints.
+    """
+    joints, drives, objects = (model.nq, model.nv), model.nu, model.nmocap
+    if joints != (3, 3) or drives != 3 or objects not in OBJECT_COUNTS:
+        expected = f"3 joints, 3 drives and {OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]} objects"
+        raise FileFormatError("recorded model", expected, f"{joints[0]}, {drives} and {objects}")
+    named = [(mujoco.mjtObj.mjOBJ_BODY, f"object_{number}") for number in range(objects)]
+    for kind, name in [(mujoco.mjtObj.mjOBJ_SITE, "hand"), *named]:
+        if mujoco.mj_name2id(model, kind, name) < 0:
+            raise FileFormatError("recorded model", f"a site 'hand' and {objects} objects, by name", f"no {name!r}")
+    bodies = object_bodies(model)
+    if sorted(bodies) != list(range(objects)):
+        raise FileFormatError("recorded model", "objects that are mocap bodies", "others")
+    return model.site("hand").id, bodies
 
 
 def _play(model: mujoco.MjModel, data: mujoco.MjData, episode: RecordedEpisode) -> Iterator[None]:

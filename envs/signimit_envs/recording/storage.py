@@ -13,6 +13,7 @@ from signimit.io.archive import MAX_BYTES, read_archive, write_archive
 from signimit.validation import whole_numbers
 from signimit_envs.recording.episodes import Recording, episode_arrays, episode_from_arrays
 from signimit_envs.recording.origin import RecordingOrigin
+from signimit_envs.recording.replay import check_recording
 
 KIND, VERSION = "recording", 1
 _STEPS = "steps"
@@ -54,13 +55,14 @@ def load_recording(path: str | os.PathLike[str]) -> Recording:
                 made.append(episode_from_arrays(fields, seed))
             except InvalidInputError as error:
                 raise error.inside(f"episode {number}") from None
-        return Recording(origin, made)
+        recording = Recording(origin, made)
     except KeyError as error:
         raise FileFormatError(where, f"an array {error}", "none") from None
     except FileFormatError:
         raise
     except InvalidInputError as error:
         raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
+    return check_recording(recording, where)
 
 
 def seeds_of(value: Any, count: int, where: str) -> list[int | None]:

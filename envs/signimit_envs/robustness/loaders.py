@@ -155,13 +155,12 @@ def use_model(model: ImitationModel) -> None:
 
 
 def use_recording(recording: Recording) -> None:
-    """Print a recording, and replay it; whether its model compiles is told only then, in one sentence."""
+    """Print a recording, replay it and observe it."""
     _ = repr(recording), repr(recording.origin), recording[:1], recording.origin.version_note()
     for episode in recording:
         _ = repr(episode)
-        with suppress(SignimitError):
-            _ = observe_states(recording.origin, episode)
-            _ = find_divergence(recording.origin, episode)
+        _ = observe_states(recording.origin, episode)
+        _ = find_divergence(recording.origin, episode)
     with suppress(SignimitError):
         _ = recording.origin.make_spec()
 

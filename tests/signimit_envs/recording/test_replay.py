@@ -48,6 +48,60 @@ def test_another_model_is_noticed(recording: Recording) -> None:
         find_divergence(replace(recording.origin, model_xml="<mujoco><nonsense/></mujoco>"), recording[0])
 
 
+@pytest.mark.parametrize(
+    ("changes", "told"),
+    [
+        ({'joint="wrist"': 'joint="elbow"'}, None),  # odd, but it can be observed
+        ({"object_1": "lamp", 'body name="table"': 'body name="object_1"'}, "objects that are mocap bodies"),
+        ({"object_": "thing_"}, "a site 'hand' and 4 objects, by name, found no 'object_0'"),
+    ],
+)
+def test_only_a_tabletop_is_observed(recording: Recording, changes: dict[str, str], told: str | None) -> None:
+    xml = recording.origin.model_xml
+    for old, new in changes.items():
+        assert old in xml
+        xml = xml.replace(old, new)
+    origin = replace(recording.origin, model_xml=xml)
+    if told is None:
+        np.testing.assert_array_equal(observe_states(origin, recording[0])["hand"], recording[0].observations["hand"])
+        return
+    with pytest.raises(si.FileFormatError, match=told):
+        observe_states(origin, recording[0])
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '<replicate count="3000000"><geom size=".1"/></replicate>',
+        '<flexcomp name="f" type="grid" count="300 300 300" spacing="1 1 1" dim="3"/>',
+        '< composite type="cable" count="1000000 1 1"/>',
+    ],
+)
+def test_a_model_that_would_take_all_memory_is_not_compiled(recording: Recording, line: str) -> None:
+    xml = recording.origin.model_xml.replace("<worldbody>", f"<worldbody>{line}")
+    with pytest.raises(si.FileFormatError, match="recorded model: expected bodies written one by one, found the el"):
+        replace(recording.origin, model_xml=xml).compile_model()
+
+
+@pytest.mark.parametrize("error", [MemoryError(), RuntimeError("Caught an unknown exception!"), ValueError("XML")])
+def test_what_mujoco_says_of_a_model_is_one_sentence(
+    recording: Recording, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def fail(*_: Any) -> None:
+        raise error
+
+    monkeypatch.setattr("signimit_envs.recording.origin.mujoco.MjModel.from_xml_string", fail)
+    with pytest.raises(si.FileFormatError, match=r"recorded model: expected MJCF that compiles, found \w"):
+        recording.origin.compile_model()
+
+
+def test_a_model_without_memory_is_told_in_one_sentence(recording: Recording) -> None:
+    """MuJoCo compiles it, and fails in the first posture at the limits of the joints."""
+    starved = replace(recording.origin, model_xml=recording.origin.model_xml.replace('memory="1M"', 'memory="2K"'))
+    with pytest.raises(si.FileFormatError, match="recorded model: expected at least 65536 bytes of memory, found 2048"):
+        find_divergence(starved, recording[0])
+
+
 @pytest.mark.parametrize("line", ['<include file="/etc/hostname"/>', "<asset><mesh name='a' file = 'a.stl'/></asset>"])
 def test_a_model_that_names_files_of_this_disk_is_refused(recording: Recording, line: str) -> None:
     hostile = replace(recording.origin, model_xml=f"<mujoco>{line}</mujoco>")

@@ -46,11 +46,12 @@ class Field(NamedTuple):
 
     @property
     def limits(self) -> tuple[float, float]:
-        """Least and largest number of its type."""
+        """Least and largest number of its type; Python's numbers, as NumPy's would cast what is compared with them."""
         if self.dtype.kind == "b":
             return 0, 1
-        known = np.finfo(self.dtype) if self.dtype.kind == "f" else np.iinfo(self.dtype)
-        return known.min, known.max
+        if self.dtype.kind == "f":
+            return float(np.finfo(self.dtype).min), float(np.finfo(self.dtype).max)
+        return np.iinfo(self.dtype).min, np.iinfo(self.dtype).max
 
     @property
     def columns(self) -> list[str]:

@@ -31,6 +31,7 @@ from signimit_envs.recording.formats.columns import (
     has_last_row,
 )
 from signimit_envs.recording.origin import read_origin, write_origin
+from signimit_envs.recording.replay import check_recording
 from signimit_envs.recording.storage import KIND, VERSION
 
 STEPS, EPISODES = "steps.csv", "episodes.csv"
@@ -75,13 +76,14 @@ def read_csv_recording(folder: str | os.PathLike[str]) -> Recording:
         episodes = [_episode(number, line, steps, still, moving) for number, line in enumerate(lines)]
         for line in steps:
             raise line.complaint(0, f"no more than {len(episodes)} episodes")
-        return Recording(origin, episodes)
+        recording = Recording(origin, episodes)
     except FileNotFoundError as error:
         raise FileFormatError(str(place), f"a table {Path(error.filename).name}", "none") from None
     except FileFormatError:
         raise
     except InvalidInputError as error:
         raise FileFormatError(f"{place}: {error.where}", error.expected, error.found) from None
+    return check_recording(recording, str(place))
 
 
 def _split(fields: list[Field], constant: set[str]) -> tuple[list[Field], list[Field]]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from signimit_envs.recording.episodes import BOX, RecordedEpisode, Recording
 from signimit_envs.recording.formats.minari_store import create_dataset, import_minari, minari_errors, open_dataset
 from signimit_envs.recording.origin import RecordingOrigin
+from signimit_envs.recording.replay import check_recording
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
 
 _PHYSICS = "physics"
@@ -62,9 +63,9 @@ def read_minari_recording(folder: str | os.PathLike[str]) -> Recording:
     origin = RecordingOrigin.from_meta(header.get("origin"), os.fspath(folder))
     seeds = seeds_of(header.get("seeds"), dataset.total_episodes, os.fspath(folder))
     with minari_errors(folder):
-        return Recording(
-            origin, [_episode(data, seed) for data, seed in zip(dataset.iterate_episodes(), seeds, strict=True)]
-        )
+        episodes = zip(dataset.iterate_episodes(), seeds, strict=True)
+        recording = Recording(origin, [_episode(data, seed) for data, seed in episodes])
+    return check_recording(recording, os.fspath(folder))
 
 
 def _buffer(episode: RecordedEpisode, named: bool) -> Any:

@@ -82,6 +82,7 @@ def import_bytes(name: str, content: bytes) -> tuple[DrawnDemonstration, ...]:
         except FileFormatError as error:  # the page knows the file by another name than the server
             raise FileFormatError(error.where.replace(str(path), "the file"), error.expected, error.found) from None
     _check_sizes(shown)
+    _ = DemonstrationSet(one.demonstration for one in shown)  # all have as many objects as the first, or it says so
     return tuple(shown)
 
 

@@ -7,7 +7,7 @@ change: journals of every version are read for ever.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -220,8 +220,8 @@ def event_from_json(value: Mapping[str, Any]) -> Event:
     """
     try:
         kind = _KINDS[value["event"]]
-        fields = {field.name: value[field.name] for field in dataclasses.fields(kind)}
-        return kind(**{name: _field_from_json(name, given) for name, given in fields.items()})
+        fields = [(field.name, _READERS.get(str(field.type))) for field in dataclasses.fields(kind)]
+        return kind(**{name: read(value[name]) if read else value[name] for name, read in fields})
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         if isinstance(error, InvalidInputError):
             raise
@@ -245,23 +245,6 @@ def _value_to_json(value: Any) -> Any:
     if isinstance(value, Request):
         return list(value)
     return [_value_to_json(item) for item in value] if isinstance(value, tuple) else value
-
-
-def _field_from_json(name: str, value: Any) -> Any:
-    """Turn the JSON of a field back into what it was."""
-    if name == "shown":
-        return (
-            _demonstration_from_json(value)
-            if isinstance(value, Mapping)
-            else tuple(_demonstration_from_json(item) for item in value)
-        )
-    if name == "signs":
-        return _strokes_from_json(value)
-    if name == "drawn":
-        return {place: _strokes_from_json(strokes) for place, strokes in value.items()}
-    if name == "request":
-        return _request_from_json(value)
-    return value
 
 
 def _demonstration_from_json(value: Mapping[str, Any]) -> DrawnDemonstration:
@@ -289,3 +272,13 @@ def _request_from_json(value: Sequence[int] | None) -> Request | None:
     movement, focus = value
     _check_indices("request", movement, focus)
     return Request(movement, focus)
+
+
+_READERS: Mapping[str, Callable[[Any], Any]] = {
+    "DrawnDemonstration": _demonstration_from_json,
+    "tuple[DrawnDemonstration, ...]": lambda values: tuple(map(_demonstration_from_json, values)),
+    "Signs": _strokes_from_json,
+    "Mapping[str, Signs]": lambda drawn: {place: _strokes_from_json(strokes) for place, strokes in drawn.items()},
+    "Request | None": _request_from_json,
+}
+"""Readers of the fields of events by their declared types; the events check numbers and texts themselves."""

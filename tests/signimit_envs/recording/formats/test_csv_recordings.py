@@ -117,20 +117,33 @@ class Pixels(gym.ObservationWrapper[Any, Any, Any]):
         return np.zeros((80, 80, 3), np.uint8)
 
 
-def test_a_number_that_its_type_cannot_hold_is_named(recording: Recording, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("dtype", "given", "told"),
+    [
+        ("u1", "256", "uint8, 0 to 255"),
+        ("i2", "-32769", "int16, -32768 to 32767"),
+        ("i8", "9223372036854775808", "int64, -9223372036854775808 to 9223372036854775807"),
+        ("f2", "65505", "float16, -65504.0 to 65504.0"),
+        ("f2", "1e300", "float16, -65504.0 to 65504.0"),
+        ("f4", "2e+256", "float32, -3.4028234663852886e+38 to 3.4028234663852886e+38"),
+        (">f4", "-3.5e38", "float32, -3.4028234663852886e+38 to 3.4028234663852886e+38"),
+    ],
+)
+def test_a_number_that_its_type_cannot_hold_is_named(
+    recording: Recording, tmp_path: Path, dtype: str, given: str, told: str
+) -> None:
     arrays = episode_arrays(recording[0])
-    small = {**arrays, "observations.byte": np.arange(41, dtype=np.uint8)}
+    small = {**arrays, "observations.odd": np.arange(41).astype(dtype)}
     write_csv_recording(tmp_path / "r", Recording(recording.origin, [episode_from_arrays(small, None)]))
     path = tmp_path / "r" / "steps.csv"
     lines = path.read_text().splitlines()
-    column = lines[0].split(",").index("observations.byte")
+    column = lines[0].split(",").index("observations.odd")
     cells = lines[5].split(",")
-    lines[5] = ",".join([*cells[:column], "256", *cells[column + 1 :]])
+    lines[5] = ",".join([*cells[:column], given, *cells[column + 1 :]])
     path.write_text("\n".join(lines) + "\n")
-    with pytest.raises(
-        si.SignimitError, match=r"line 6, column observations\.byte: expected uint8, 0 to 255, found '256'"
-    ):
+    with pytest.raises(si.FileFormatError) as refusal:
         read_csv_recording(tmp_path / "r")
+    assert f"line 6, column observations.odd: expected {told}, found '{given}'" in str(refusal.value)
 
 
 @pytest.mark.parametrize(

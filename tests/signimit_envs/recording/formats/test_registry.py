@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import gymnasium as gym
@@ -72,6 +74,33 @@ def test_observed_pixels_go_through_every_format_but_tables(
         place = place_for(name, "pixels", tmp_path)
         write_data(place, recording, name)
         assert_same(read_recording(place), recording)
+
+
+@pytest.mark.parametrize("name", FORMATS)
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('name="object_1"', 'name="objekt_1"', "a site 'hand' and 4 objects, by name, found no 'object_1'"),
+        ('site name="hand"', 'site name="Hand"', "a site 'hand' and 4 objects, by name, found no 'hand'"),
+        ('name="object_2" mocap="true"', 'name="object_2"', "numbers, as the model has"),
+        ('memory="1M"', 'memory="1"', "expected MJCF that compiles, found Error: engine error: mj_stackAlloc"),
+        ('memory="1M"', 'memory="2K"', "recorded model: expected at least 65536 bytes of memory, found 2048"),
+        ('gravity="', 'gravitas="', "expected MJCF that compiles, found "),
+        ("</worldbody>", "</worldbody><!--", "expected MJCF that compiles, found "),
+    ],
+)
+def test_a_recording_that_cannot_be_replayed_is_not_read(
+    recording: Recording, tmp_path: Path, minari_root: Path, name: str, old: str, new: str, told: str
+) -> None:
+    """Whatever the format: its model has the parts that are observed, under their names, and can be simulated."""
+    xml = recording.origin.model_xml.replace("<option ", '<option gravity="0 0 -9.81" ')
+    broken = Recording(replace(recording.origin, model_xml=xml.replace(old, new)), recording.episodes)
+    assert broken.origin.model_xml != xml
+    place = place_for(name, "broken", tmp_path)
+    write_data(place, broken, name)
+    with pytest.raises(si.FileFormatError, match=re.escape(told)) as refusal:
+        read_recording(place)
+    assert "broken" in str(refusal.value)
 
 
 @pytest.mark.parametrize("name", FORMATS)

@@ -119,3 +119,10 @@ def test_more_than_could_have_been_drawn_here_is_refused(shown: Make) -> None:
     many = [shown()] * 101
     with pytest.raises(InvalidInputError, match="at most 100 demonstrations"):
         import_bytes("demonstrations.npz", export_bytes("demonstrations.npz", many, None))
+
+
+@pytest.mark.parametrize("name", [name for name in FORMATS if name.startswith("strokes")])
+def test_demonstrations_of_different_tables_are_no_session(name: str, shown: Make) -> None:
+    two = replace(shown(), objects=shown().objects[:2])
+    with pytest.raises(InvalidInputError, match="demonstration 1: objects: expected 3 as in demonstration 0, found 2"):
+        import_bytes(name, export_bytes(name, [shown(), two], None))

@@ -132,3 +132,13 @@ def test_a_demonstration_that_cannot_be_learned_from_is_no_event(shown: Callable
     event["shown"][0]["hand"]["points"][0] = [1e9, 0.0]
     with pytest.raises(InvalidInputError, match="hand: expected numbers within 500"):
         event_from_json(event)
+
+
+@pytest.mark.parametrize("kind", ["demonstrated", "redrawn"])
+def test_one_demonstration_is_no_list_of_them_and_a_list_is_not_one(
+    kind: str, shown: Callable[[], DrawnDemonstration]
+) -> None:
+    one, several = event_to_json(Redrawn(0, shown())), event_to_json(Demonstrated((shown(),)))
+    mixed = {**one, "event": kind, "shown": (one if kind == "demonstrated" else several)["shown"]}
+    with pytest.raises(InvalidInputError, match="event: expected one of created, demonstrated"):
+        event_from_json(mixed)

@@ -32,7 +32,7 @@ from signimit_envs.recording.formats.lerobot.layout import (
     import_pyarrow,
 )
 from signimit_envs.recording.origin import read_origin, write_origin
-from signimit_envs.recording.replay import film_states
+from signimit_envs.recording.replay import check_recording, film_states
 from signimit_envs.recording.storage import KIND, VERSION, seeds_of
 from signimit_envs.video.backend import choose_backend
 
@@ -110,7 +110,8 @@ def read_lerobot_recording(folder: str | os.PathLike[str]) -> Recording:
     seeds = seeds_of(header.get("seeds"), len(episodes), str(place))
     with lerobot_errors(place):
         made = [episode_from_arrays(_arrays(e, groups), seed) for e, seed in zip(episodes, seeds, strict=True)]
-        return Recording(origin, made)
+        recording = Recording(origin, made)
+    return check_recording(recording, str(place))
 
 
 def _features(fields: Sequence[Field]) -> dict[str, list[Field]]:
