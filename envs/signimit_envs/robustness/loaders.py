@@ -35,7 +35,8 @@ from signimit_envs.recording.formats.minari_demonstrations import read_minari_de
 from signimit_envs.recording.formats.minari_recordings import read_minari_recording
 from signimit_envs.recording.replay import find_divergence, observe_states
 from signimit_envs.robustness import samples
-from signimit_envs.studio.page.exports import import_bytes
+from signimit_envs.studio.page.exports import import_bytes, to_library
+from signimit_envs.studio.page.prompts import get_language
 from signimit_envs.studio.page.views import track_json
 from signimit_envs.studio.store.events import DrawnDemonstration, event_to_json
 from signimit_envs.studio.store.history import History
@@ -132,15 +133,8 @@ def use_policy(policy: Policy) -> None:
 
 def use_model(model: ImitationModel) -> None:
     """Ask a model for what it knows and why, for answers and their policies, and for what to ask next."""
-    _ = (
-        repr(model),
-        model.summary(),
-        model.labels,
-        model.focus,
-        model.landmarks,
-        model.movements,
-        dict(model.diagnostics),
-    )
+    _ = repr(model), model.summary(), model.labels, model.focus
+    _ = model.landmarks, model.movements, dict(model.diagnostics)
     demos = model.demonstrations
     if model.understanding.belief is not None:
         _ = str(model.explain())
@@ -182,6 +176,7 @@ def use_journal(read: tuple[History, list[Any]]) -> None:
         _ = event_to_json(answer.asked), round(answer.asked.confidence, 4), answer.asked.movement + answer.asked.focus
     if history.shown:
         _ = DemonstrationSet(one.demonstration for one in history.shown)
+        _ = to_library(history.shown, get_language(history.created.language))
     with suppress(SignimitError):
         _ = track_json(track)
 

@@ -170,8 +170,10 @@ def _draw_answers(model: ImitationModel, answers: Sequence[tuple[Answer, Track]]
         if not track:
             continue
         key = answer.asked.movement, answer.asked.focus
-        about = _whole(track, "path") - _whole(track, "objects")[:, answer.asked.focus]
-        paths.setdefault(key, []).append(about)
+        objects = _whole(track, "objects")
+        if objects.shape[1] <= answer.asked.focus:
+            raise InvalidInputError("answer", "a movement of the arm among the session's objects", "others")
+        paths.setdefault(key, []).append(_whole(track, "path") - objects[:, answer.asked.focus])
         obeyed.setdefault(key, []).append(answer.good)
     if not paths:
         raise InvalidInputError("figure 7", "at least one answer of the arm", "none")
@@ -183,4 +185,6 @@ def _draw_answers(model: ImitationModel, answers: Sequence[tuple[Answer, Track]]
 def _whole(track: Track, name: str) -> NDArray[np.float64]:
     if not track:
         raise InvalidInputError("answer", "a movement of the arm", "none")
+    if any(name not in part for part in track):
+        raise InvalidInputError("answer", f"a movement of the arm with {name}", "one without")
     return np.array([row for part in track for row in part[name]], dtype=np.float64)

@@ -7,6 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from signimit.exceptions import InvalidInputError
+from signimit.teaching.languages import Request
+from signimit_envs.studio.limits import LIMITS
+from signimit_envs.studio.page.prompts import get_language
 from signimit_envs.studio.store.events import (
     PLACES,
     QUESTION,
@@ -89,12 +92,16 @@ def replay_events(events: Iterable[Event]) -> History:
     """Fold the events of a session into its state.
 
     Raises:
+        UnknownNameError: If its language is none of the studio's.
         InvalidInputError: If the first does not create it, or one of them cannot have happened.
     """
     remaining = iter(events)
     first = next(remaining, None)
     if not isinstance(first, Created):
         raise InvalidInputError("session", "a beginning", type(first).__name__)
+    language = get_language(first.language)
+    if language is not None and first.objects != language.objects:
+        raise InvalidInputError("session", f"{language.objects} objects, as its language has", f"{first.objects}")
     return functools.reduce(apply_event, remaining, History(first, first.title))
 
 
@@ -134,6 +141,9 @@ def _apply(history: History, event: Event) -> History:
         case Drafted():
             return replace(history, draft=_drafted(history, event))
         case Asked():
+            _check_number(event.movement, LIMITS.demonstrations, "asked: movement")
+            _check_number(event.focus, history.created.objects, "asked: focus")
+            _check_request(history, event.request, "asked: request")
             drawn = {place: strokes for place, strokes in draft.drawn.items() if place != QUESTION}
             return replace(history, answers=(*history.answers, Answer(event)), draft=replace(draft, drawn=drawn))
         case Judged(number, good):
@@ -162,6 +172,7 @@ def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> Demons
             raise InvalidInputError(f"demonstration {number}: signs", f"{words}", f"{len(one.signs)}")
         if len(one.objects) != objects:
             raise InvalidInputError(f"demonstration {number}: objects", f"{objects}", f"{len(one.objects)}")
+        _check_request(history, one.prompt, f"demonstration {number}: prompt")
     return edited
 
 
@@ -173,6 +184,16 @@ def _drafted(history: History, event: Drafted) -> Draft:
         _check_number(event.number, len(history.shown), "demonstration")
     draft = history.draft if event.number == history.draft.number else history.draft.question_only()
     return Draft(event.number, {**draft.drawn, **event.drawn})
+
+
+def _check_request(history: History, request: Request | None, where: str) -> None:
+    """Refuse a request for an object or a movement that the session does not have."""
+    if request is None:
+        return
+    _check_number(request.focus, history.created.objects, f"{where}: focus")
+    language = get_language(history.created.language)
+    if language is not None:
+        _check_number(request.movement, len(language.movements), f"{where}: movement")
 
 
 def _check_number(number: int, count: int, what: str) -> None:

@@ -122,7 +122,12 @@ class SessionStore:
         for number, part in enumerate(parts, 1):
             try:
                 steps = len(finite_array(part["path"], "path", (None, 2)))
-                finite_array(part["objects"], "objects", (steps, None, 2))
+                count = finite_array(part["objects"], "objects", (steps, None, 2)).shape[1]
+                expected = finite_array(parts[0]["objects"], "objects", (None, None, 2)).shape[1]
+                if count != expected:
+                    raise InvalidInputError("objects", f"{expected} as in line 1", f"{count}")
+                if "joints" in part:
+                    finite_array(part["joints"], "joints", (steps, 3))
                 first, rate = part["first"], finite_array(part["rate"], "rate", ())
                 if type(first) is not int or not 0 <= first < LARGEST or not 1 <= rate < LARGEST:
                     raise InvalidInputError("first, rate", "0 or more, and 1 or more", f"{first!r:.40}, {rate:g}")

@@ -10,11 +10,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from signimit import Demonstration, DemonstrationSet, Stroke
+from signimit import Demonstration, DemonstrationSet, InvalidInputError, Stroke
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page import pictures
-from signimit_envs.studio.page.pictures import FigureCache, film_demonstration, similarities_json
-from signimit_envs.studio.store.events import DrawnDemonstration
+from signimit_envs.studio.page.pictures import (
+    FigureCache,
+    draw_figure,
+    film_answer,
+    film_demonstration,
+    similarities_json,
+)
+from signimit_envs.studio.store.events import Asked, DrawnDemonstration
+from signimit_envs.studio.store.history import Answer
 from signimit_envs.video.storyboard import FRAME_RATE
 
 Json = dict[str, Any]
@@ -121,3 +128,16 @@ def test_demonstrations_of_no_movement_are_compared_last() -> None:
     found = similarities_json(model)  # type: ignore[arg-type]
     assert found["order"] == [2, 1, 0, 3]
     assert found["labels"] == [-1, 1, 0, -1]
+
+
+def test_a_track_that_does_not_fit_its_answer_is_told_in_a_sentence() -> None:
+    """A file may say anything: a hand without an arm, or fewer objects than the answer is about."""
+    answer = Answer(Asked(_drawn(20).signs, 0, 1, 1.0))
+    track = [{"first": 0, "rate": 50, "path": [[0.0, 0.0], [0.1, 0.0]], "objects": [[[0.1, 0.1]]] * 2}]
+    with pytest.raises(
+        InvalidInputError, match="answer: expected a movement of the arm with joints, found one without"
+    ):
+        film_answer(answer, track)
+    model: Any = SimpleNamespace()
+    with pytest.raises(InvalidInputError, match="answer: expected a movement of the arm among the session's objects"):
+        draw_figure(7, "png", model, [(answer, track)])

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from signimit import InvalidInputError
+from signimit import InvalidInputError, UnknownNameError
 from signimit.strokes import Stroke
+from signimit.teaching.languages import Request
 from signimit_envs.studio.store.events import (
     Asked,
     Created,
@@ -150,3 +153,33 @@ def _shown_once() -> DrawnDemonstration:
     places = np.arange(6.0).reshape(3, 2)
     stroke = Stroke(places, np.arange(3.0))
     return DrawnDemonstration((stroke, stroke), places, stroke)
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"focus": 3}, "asked: focus: expected a number below 3, found 3"),
+        ({"movement": 10**12}, "asked: movement: expected a number below 100, found 1000000000000"),
+        ({"request": Request(5, 0)}, "asked: request: movement: expected a number below 3, found 5"),
+        ({"request": Request(0, 3)}, "asked: request: focus: expected a number below 3, found 3"),
+    ],
+)
+def test_nobody_asks_for_what_a_session_does_not_have(change: dict[str, Any], told: str, shown: Make) -> None:
+    asked = Asked(shown().signs, 0, 2, 1.0, Request(2, 2))
+    assert len(replay_events([BEGINNING, asked]).answers) == 1
+    with pytest.raises(InvalidInputError, match=told):
+        replay_events([BEGINNING, replace(asked, **change)])
+
+
+@pytest.mark.parametrize("request_", [Request(3, 0), Request(0, 3)])
+def test_a_prompt_that_the_language_does_not_have_is_refused(request_: Request, shown: Make) -> None:
+    with pytest.raises(InvalidInputError, match=r"demonstration 1: prompt: \w+: expected a number below"):
+        replay_events([BEGINNING, Demonstrated((shown(), replace(shown(), prompt=request_)))])
+
+
+def test_a_session_in_a_language_that_the_studio_does_not_have_is_refused() -> None:
+    with pytest.raises(UnknownNameError, match="Unknown language 'papier'; known are paper"):
+        replay_events([replace(BEGINNING, language="papier")])
+    with pytest.raises(InvalidInputError, match="session: expected 3 objects, as its language has, found 4"):
+        replay_events([replace(BEGINNING, objects=4)])
+    assert replay_events([replace(BEGINNING, language="free", objects=4)]).created.objects == 4

@@ -102,6 +102,10 @@ def test_tracks_are_kept_beside_and_apart(store: SessionStore) -> None:
         ({"path": [[0, 0]]}, "expected an entry 'objects', found none"),
         ({"path": [[0, "x"]], "objects": [[[0, 0]]], "first": 0, "rate": 50}, "path: expected numbers"),
         ({"path": [[0, 0]], "objects": [], "first": 0, "rate": 50}, "objects: expected numbers of shape (1, n, 2)"),
+        (
+            {"path": [[0, 0]], "objects": [[[0, 0]]], "joints": [[0, 0]], "first": 0, "rate": 50},
+            "joints: expected",
+        ),
         ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 0.5, "rate": 50}, "first, rate: expected 0 or more"),
         ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 0, "rate": 0}, "first, rate: expected 0 or more"),
         ({"path": [[0, 0]], "objects": [[[0, 0]]], "first": 9, "rate": 1e-300}, "first, rate: expected 0 or more"),
@@ -115,3 +119,11 @@ def test_a_line_that_is_no_part_of_a_track_is_named(store: SessionStore, part: d
         store.read_track(name, 0)
     assert "track-0.jsonl: line 1" in str(error.value)
     assert sentence in str(error.value)
+
+
+def test_objects_do_not_come_and_go_within_a_track(store: SessionStore) -> None:
+    name = store.create(BEGINNING)
+    for objects in ([[[0, 0], [1, 1]]], [[[0, 0]]]):
+        store.append_track(name, 0, {"first": 0, "rate": 50, "path": [[0, 0]], "objects": objects})
+    with pytest.raises(FileFormatError, match=r"track-0\.jsonl: line 2: objects: expected 2 as in line 1, found 1"):
+        store.read_track(name, 0)
