@@ -128,6 +128,6 @@ def test_a_track_that_does_not_fit_its_answer_is_told_in_a_sentence() -> None:
         InvalidInputError, match="answer: expected a movement of the arm with joints, found one without"
     ):
         film_answer(answer, track)
-    model: Any = SimpleNamespace()
+    model: Any = SimpleNamespace(demonstrations=())
     with pytest.raises(InvalidInputError, match="answer: expected a movement of the arm among the session's objects"):
         draw_figure(7, "png", model, [(answer, track)])
