@@ -26,6 +26,7 @@ from signimit.learners.joint.measurements import Measurements
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+_NEAR = 1 / 11  # share of the others that are near: of twelve demonstrations the nearest one
 NOTHING = -1  # movement of a demonstration that is beside the point
 
 
@@ -33,7 +34,10 @@ class Assumptions(NamedTuple):
     """What the objective assumes of people; one setting for everybody, chosen with `study assumptions`.
 
     Attributes:
-        likeness: Dissimilarity at which two drawings are as likely one movement as two, nats.
+        likeness: Dissimilarity at which two drawings are as likely one movement as two, nats, in a typical session.
+        typical: Dissimilarity of most drawings to near others, nats, down to which likeness is the same.
+        closeness: Nats by which likeness falls for each nat that the session's drawings are closer than typical: who
+            repeats themselves closely means something else sooner.
         slope: Nats that a unit of dissimilarity counts.
         most_alike: Nats that a pair of drawings may say at most for one movement: closer than close is no more equal.
         most_unlike: The same against.
@@ -49,6 +53,8 @@ class Assumptions(NamedTuple):
     """
 
     likeness: float = -1.0
+    typical: float = -5.5
+    closeness: float = 0.8
     slope: float = 0.7
     most_alike: float = 2.5
     most_unlike: float = 5.0
@@ -260,7 +266,11 @@ class Objective:
 
 def drawing_evidence(dissimilarities: Array, assumed: Assumptions) -> Array:
     """Evidence of drawings for one movement, shape (N, N), nats; 0 on the diagonal."""
-    alike = (assumed.slope * (assumed.likeness - dissimilarities)).clip(-assumed.most_unlike, assumed.most_alike)
+    others = dissimilarities[~np.eye(len(dissimilarities), dtype=bool)].reshape(len(dissimilarities), -1)
+    near = np.quantile(others, _NEAR, axis=1, method="lower") if others.size else assumed.typical
+    nearest = float(np.median(near))
+    likeness = assumed.likeness + assumed.closeness * min(0.0, nearest - assumed.typical)
+    alike = (assumed.slope * (likeness - dissimilarities)).clip(-assumed.most_unlike, assumed.most_alike)
     np.fill_diagonal(alike, 0.0)
     return np.asarray(alike)
 
