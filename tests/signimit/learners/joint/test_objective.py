@@ -68,8 +68,12 @@ def slow_value(seen: Measurements, words: Array, known: Hypothesis, assumed: Ass
     count, places = seen.place_evidence.shape
     movements = sorted(set(known.movement.tolist()) - {NOTHING})
 
+    near = [sorted(seen.drawings[t, k] for k in range(count) if k != t) for t in range(count)]
+    nearest = float(np.median([row[(count - 2) // 11] for row in near])) if count > 1 else 0.0
+    likeness = assumed.likeness + assumed.closeness * min(0.0, nearest - assumed.typical)
+
     def alike(t: int, k: int) -> float:
-        drawn = assumed.slope * (assumed.likeness - seen.drawings[t, k])
+        drawn = assumed.slope * (likeness - seen.drawings[t, k])
         gap = seen.offsets[t, known.place[t]] - seen.offsets[k, known.place[k]]
         spread = 2 * assumed.offset_spread**2  # of a difference, along each axis
         near = np.log(assumed.area / (2 * np.pi * spread)) - gap @ gap / (2 * spread)
@@ -158,8 +162,17 @@ def test_scores_are_what_a_move_gains(session: tuple[int, int, int]) -> None:
 def test_evidence_of_drawings_by_hand() -> None:
     """0.9 nats for each unit below -0.5, at most 2.7 for and 4 against; nobody is compared with oneself."""
     unlike = np.array([[-9.0, -1.5, -9.0], [-1.5, 7.0, 9.0], [-9.0, 9.0, 0.0]])
-    np.testing.assert_allclose(drawing_evidence(unlike, ODD), [[0, 0.9, 2.7], [0.9, 0, -4], [2.7, -4, 0]])
+    same = ODD._replace(closeness=0.0)
+    np.testing.assert_allclose(drawing_evidence(unlike, same), [[0, 0.9, 2.7], [0.9, 0, -4], [2.7, -4, 0]])
     assert unlike[0, 0] == -9.0
+
+
+def test_who_repeats_themselves_closely_means_something_else_sooner() -> None:
+    """The nearest are at -9, -9 and -1.5: 3.5 below -5.5 in the middle, so that the middle moves from -0.5 to -2.25."""
+    unlike = np.array([[0.0, -1.5, -9.0], [-1.5, 0.0, -1.0], [-9.0, -1.0, 0.0]])
+    close = ODD._replace(closeness=0.5, typical=-5.5)
+    found = drawing_evidence(unlike, close)
+    np.testing.assert_allclose(found, [[0, -0.675, 2.7], [-0.675, 0, -1.125], [2.7, -1.125, 0]])
 
 
 def test_evidence_of_signs_by_hand() -> None:
