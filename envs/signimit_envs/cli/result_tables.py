@@ -293,7 +293,7 @@ def throughput(results: Path) -> str:
 
 TABLES: dict[str, Callable[[Path], str]] = {
     "checker": checker, "people_as_they_are": people_as_they_are, "sessions": sessions, "policies": policies,
-    "study": study, "signs": signs, "asking": asking, "growth": growth, "benchmark": benchmark, "throughput": throughput, "headline": headline,
-    "criterion": criterion, "real_people": real_people, "each_person": each_person,
-    "policies_synthetic": policies_synthetic, "policies_real": policies_real,
+    "study": study, "signs": signs, "asking": asking, "growth": growth, "benchmark": benchmark,
+    "throughput": throughput, "headline": headline, "criterion": criterion, "real_people": real_people,
+    "each_person": each_person, "policies_synthetic": policies_synthetic, "policies_real": policies_real,
 }  # fmt: skip
