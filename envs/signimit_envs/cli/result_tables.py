@@ -19,6 +19,29 @@ from signimit.exceptions import FileFormatError, InvalidInputError
 REGION = re.compile(r"(<!-- table: (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 UNDERSTOOD = 0.95  # share of commands that a lesson shall come to
+IMPERFECT = {
+    "plain": "nobody errs: each movement drawn twice, one signer, one mover",
+    "plain-mixed": "another person for every sign and every movement",
+    "plain-7x6-mixed-once": "the same, 7 movements, 6 objects, each pair shown once",
+    "once": "each movement drawn once",
+    "open": "open strokes, drawn twice",
+    "open-once": "open strokes, drawn once",
+    "retreat": "the hand goes home after drawing",
+    "strangers": "every drawing by another player of Quick, Draw!",
+    "strangers-7x4-once": "the same, 7 movements, 4 objects, each pair shown once",
+    "strangers-once": "strangers, each movement drawn once",
+    "wrong-1": "1 of 12 demonstrations answers something else",
+    "wrong-2": "2 of 12",
+    "wrong-3": "3 of 12",
+    "mixed-wrong-2": "2 of 12, another person for every sign and every movement",
+    "irrelevant-1": "1 of 12 is beside the point",
+    "irrelevant-2": "2 of 12",
+    "irrelevant-3": "3 of 12",
+    "idle-1": "1 further stroke that means nothing",
+    "idle-4": "4 further strokes",
+    "synonyms": "two signs for each object",
+    "once-retreat-wrong-1": "drawn once, goes home, 1 of 12 wrong: people with a mouse",
+}
 CHECKED = {
     "base": "3 movements, 3 objects, one signer, one mover, 12 demonstrations",
     "each": "the same with 6 demonstrations",
@@ -83,6 +106,21 @@ def checker(results: Path) -> str:
         )
         rows.append((what, share_text(*right), share_text(*obeyed)))
     return markdown_table(("sessions", "every inference right [95 %]", "commands obeyed [95 %]"), rows)
+
+
+def people_as_they_are(results: Path) -> str:
+    """Sessions of real people who do not keep to the rules, as another program than ours makes and judges them."""
+    rows = []
+    for name, what in IMPERFECT.items():
+        found = read_json(results / "checker" / "people_as_they_are" / f"{name}.json")
+        shares = (
+            share_text(*(int(number) for number in re.findall(r"\((\d+)/(\d+)\)", found[key])[0]))
+            for key in ("right", "read", "obeyed")
+        )
+        known = (found.get(key) for key in ("trust, area under curve", "confidence, calibration error"))
+        rows.append((what, *shares, *("" if value is None else f"{value:g}" for value in known)))
+    head = ("what people do", "sessions right [95 %]", "commands read [95 %]", "obeyed [95 %]")
+    return markdown_table((*head, "trust, area", "confidence, error"), rows)
 
 
 def sessions(results: Path) -> str:
@@ -254,8 +292,8 @@ def throughput(results: Path) -> str:
 
 
 TABLES: dict[str, Callable[[Path], str]] = {
-    "checker": checker, "sessions": sessions, "policies": policies, "study": study, "signs": signs,
-    "asking": asking, "growth": growth, "benchmark": benchmark, "throughput": throughput, "headline": headline,
-    "criterion": criterion, "real_people": real_people, "each_person": each_person,
-    "policies_synthetic": policies_synthetic, "policies_real": policies_real,
+    "checker": checker, "people_as_they_are": people_as_they_are, "sessions": sessions, "policies": policies,
+    "study": study, "signs": signs, "asking": asking, "growth": growth, "benchmark": benchmark,
+    "throughput": throughput, "headline": headline, "criterion": criterion, "real_people": real_people,
+    "each_person": each_person, "policies_synthetic": policies_synthetic, "policies_real": policies_real,
 }  # fmt: skip

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import logsumexp
 
 from signimit.demonstrations import DemonstrationSet
+from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
 from signimit.learners.base import Asked, Belief, Learner, Understanding
 from signimit.learners.joint.distance_model import SIGNS, DistanceModel
@@ -84,7 +85,12 @@ class JointLearner(Learner):
         }
         for kind in (Measurements, EarlierMeasurements):
             if set(kind._fields) <= arrays.keys():
-                return kind(*(finite_array(arrays[n], n.replace("_", " "), shapes[n]) for n in kind._fields))
+                found = kind(*(finite_array(arrays[n], n.replace("_", " "), shapes[n]) for n in kind._fields))
+                if (found.sign_distances < 0).any():
+                    raise InvalidInputError(
+                        "sign distances", "numbers of at least 0", f"{found.sign_distances.min():g}"
+                    )
+                return found
         return None
 
     def explain_measurements(self, seen: Measurements) -> Understanding:

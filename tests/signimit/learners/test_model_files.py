@@ -80,6 +80,7 @@ ONE = np.eye(12)[0]
     ("changes", "sentence"),
     [
         ({"labels": lambda a: a - 2 * ONE * (a + 1)}, "labels: expected whole numbers from -1 to 11, found [-"),
+        ({"diagnostics__sign_distances": lambda a: a - 5}, "sign distances: expected numbers of at least 0, found -5."),
         ({"labels": lambda a: -1 + 0 * a}, "labels: expected movements numbered without gaps, found [-1"),
         ({"labels": lambda a: 2 * a}, "labels: expected movements numbered without gaps"),
         (
