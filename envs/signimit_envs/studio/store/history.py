@@ -6,6 +6,8 @@ import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from signimit.exceptions import InvalidInputError
 from signimit.teaching.languages import Request
 from signimit_envs.studio.limits import LIMITS
@@ -172,6 +174,8 @@ def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> Demons
             raise InvalidInputError(f"demonstration {number}: signs", f"{words}", f"{len(one.signs)}")
         if len(one.objects) != objects:
             raise InvalidInputError(f"demonstration {number}: objects", f"{objects}", f"{len(one.objects)}")
+        if objects > 1 and not np.ptp(one.objects, axis=0).any():
+            raise InvalidInputError(f"demonstration {number}: objects", "places apart", f"{objects} in one place")
         _check_request(history, one.prompt, f"demonstration {number}: prompt")
     return edited
 

@@ -119,6 +119,14 @@ def test_a_demonstration_with_other_objects_does_not_fit() -> None:
         replay_events([Created("", "", "free", 4, 0), Demonstrated((_shown_once(),))])
 
 
+def test_objects_in_one_place_are_no_scene() -> None:
+    heap = replace(_shown_once(), objects=np.zeros((3, 2)))
+    with pytest.raises(
+        InvalidInputError, match="demonstration 0: objects: expected places apart, found 3 in one place"
+    ):
+        replay_events([BEGINNING, Demonstrated((heap,))])
+
+
 def test_a_session_begins_once() -> None:
     for events in ([], [Undone()], [BEGINNING, BEGINNING]):
         with pytest.raises(InvalidInputError, match="beginning"):
