@@ -99,12 +99,12 @@ class ImitationModel:
 
     @property
     def labels(self) -> NDArray[np.int64]:
-        """Movement of each demonstration, shape (N,)."""
+        """Movement of each demonstration, shape (N,); -1 where it is none that the others show."""
         return self.understanding.labels
 
     @property
     def focus(self) -> NDArray[np.int64]:
-        """Object each demonstration was about, shape (N,)."""
+        """Object each demonstration was about, shape (N,); -1 where it was about none."""
         return self.understanding.focus
 
     @cached_property

@@ -136,7 +136,6 @@ def _fitted(model: DistanceModel, sessions: Sequence[LogDistances]) -> DistanceM
     return replace(
         model,
         equal_mean=float(typical.mean()),
-        equal_mean_spread=max(float(typical.std(ddof=1)), _LEAST_SPREAD),
         equal_spread=_robust_spread(about),
         other_mean=float(np.median(others)),
         other_spread=_robust_spread(others),

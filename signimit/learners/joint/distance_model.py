@@ -1,8 +1,7 @@
-"""What a distance says about two demonstrations meaning the same: calibrated log-likelihood ratios.
+"""What a distance of two signs says about their meaning the same: calibrated log-likelihood ratios.
 
 The means and spreads below were measured on real people's strokes, and the shares chosen by how many of their sessions
-were understood. They are the same for everybody; only the typical distance of equals is learned anew in every session,
-because one person repeats themselves more closely than another.
+were understood. They are the same for everybody.
 """
 
 from __future__ import annotations
@@ -12,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-_QUARTILE = 0.674  # of a normal distribution, in standard deviations below its middle
 _TABLE = 2**13  # numbers of the table that ratios are read from; between them they are straight to 5e-6 nats
 
 
@@ -21,8 +19,7 @@ class DistanceModel:
     """How the logarithm of a distance is distributed among equals and among others.
 
     Attributes:
-        equal_mean: Prior mean of the session's typical log distance of equals.
-        equal_mean_spread: Its prior standard deviation.
+        equal_mean: Mean log distance of equals.
         equal_spread: Standard deviation about it.
         other_mean: Mean log distance of others.
         other_spread: Standard deviation about that.
@@ -34,7 +31,6 @@ class DistanceModel:
     """
 
     equal_mean: float
-    equal_mean_spread: float
     equal_spread: float
     other_mean: float
     other_spread: float
@@ -52,7 +48,7 @@ class DistanceModel:
 
         Args:
             distances: Any shape, not negative.
-            equal_mean: The session's typical log distance of equals.
+            equal_mean: Typical log distance of equals.
 
         Returns:
             The same shape, within log(odd_share) and -log(chance_share).
@@ -75,27 +71,6 @@ class DistanceModel:
         akin = np.log(self.akin_share) + _log_normal(x, self.akin_mean, self.akin_spread)
         return np.asarray(np.logaddexp(np.log1p(-self.akin_share) + plain, akin))
 
-    def posterior_mean(self, distances: NDArray[np.floating], count: int) -> float:
-        """Update the typical log distance of equals.
-
-        Args:
-            distances: Those of all pairs taken for equals, shape (n,).
-            count: Number of demonstrations; pairs of N things carry no more news than N.
-        """
-        if not len(distances):
-            return self.equal_mean
-        weight = min(len(distances), count) / self.equal_spread**2
-        prior = 1.0 / self.equal_mean_spread**2
-        # The lower quartile, moved to where the middle would be: if two movements were taken for one, the pairs within
-        # each still tell how alike equals are, and the pairs across look as different as they should.
-        quartile = float(np.quantile(np.log(np.maximum(distances, 1e-9)), 0.25))
-        typical = quartile + _QUARTILE * self.equal_spread
-        return (prior * self.equal_mean + weight * typical) / (prior + weight)
-
-    def log_prior(self, equal_mean: float) -> float:
-        """Log prior density, up to a constant, of a session's typical log distance."""
-        return -0.5 * ((equal_mean - self.equal_mean) / self.equal_mean_spread) ** 2
-
 
 def _log_normal(x: NDArray[np.float64], mean: float, spread: float) -> NDArray[np.float64]:
     return np.asarray(-0.5 * ((x - mean) / spread) ** 2 - np.log(spread))
@@ -103,7 +78,6 @@ def _log_normal(x: NDArray[np.float64], mean: float, spread: float) -> NDArray[n
 
 SIGNS = DistanceModel(
     equal_mean=-1.17,
-    equal_mean_spread=0.25,
     equal_spread=0.36,
     other_mean=-0.23,
     other_spread=0.21,

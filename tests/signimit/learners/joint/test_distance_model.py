@@ -12,9 +12,7 @@ from signimit.learners.joint.distance_model import SIGNS, DistanceModel
 
 AKIN = replace(SIGNS, akin_share=0.2, akin_mean=-0.6, akin_spread=0.15)
 MODELS = pytest.mark.parametrize("model", [SIGNS, AKIN], ids=["signs", "akin"])
-HAND = DistanceModel(
-    equal_mean=0.0, equal_mean_spread=1.0, equal_spread=1.0, other_mean=2.0, other_spread=1.0, odd_share=1e-9
-)
+HAND = DistanceModel(equal_mean=0.0, equal_spread=1.0, other_mean=2.0, other_spread=1.0, odd_share=1e-9)
 properties = settings(deadline=None, derandomize=True, max_examples=30)
 
 
