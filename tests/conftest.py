@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import signal
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,10 @@ import pytest
 WORKERS = 2  # of `-n auto`, at most: more would take processor time from the browser and from simulation in real time
 BROWSER = "tests/studio/"
 REAL_TIME = (BROWSER, "tests/signimit_envs/studio/")  # stay in one process: one studio and one browser at a time
+
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN and threading.current_thread() is threading.main_thread():
+    # A job in the background of a shell ignores interrupts, and so would every program that a test starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
