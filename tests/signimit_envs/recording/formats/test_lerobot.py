@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import shutil
 import subprocess
@@ -30,6 +31,16 @@ parquet = pytest.importorskip("pyarrow.parquet")
 Same = Callable[[Recording, Recording], None]
 EPISODES = "meta/episodes/chunk-000/file-000.parquet"
 DATA = "data/chunk-000/file-000.parquet"
+# Two rows whose size statistics are damaged: pyarrow 26 ends the process where they are looked at as metadata.
+DAMAGED = (
+    "UEFSMRUAFSwVLCwVBBUAFQYVBhwYCAEAAAAAAAAAGAgAAAAAAAAAABYAKAgBAAAAAAAAABgIAAAAAAAAAAAREQAAAAIAAAAEAQAAAAAAAAAA"
+    "AQAAAAAAAAAVABU4FTgsFQQVABUGFQYcGAgAAAAAAAAAQBgIAAAAAAAA8D8WACgIAAAAAAAAAEAYCAAAAAAAAPA/EREAAAACAAAABAACAAAA"
+    "BAMAAAAAAADwPwAAAAAAAABAFQQZXDUAGAZzY2hlbWEVBAAVBCkCGAVpbmRleAA1AhgBeBUCFQZMPAAAADUEGARsaXN0FQIAFQolAhgHZWxl"
+    "bWVudAAWBBkcGSwmABwVBBklBgAZGAVpbmRleBUAFgQWqgEWqgEmCDwYCAEAAAAAAAAAGAgAAAAAAAAAABYAKAgBAAAAAAAAABgIAAAAAAAA"
+    "AAAREQAZHBUAFQAVAgA8KQYZJgAEAAAAJgAcFQoZJQYAGTgBeARsaXN0B2VsZW1lbnQVABYEFrYBFrYBJrIBPBgIAAAAAAAAAEAYCAAAAAAA"
+    "APA/FgAoCAAAAAAAAABAGAgAAAAAAADwPxERABkcFQAVABUCADwpJgQAGUYAAAAEAAAAFuACFgQmCBbgAgAoIHBhcnF1ZXQtY3BwLWFycm93"
+    "IHZlcnNpb24gMjYuMC4xGSwcAAAcAAAASgEAAFBBUjE="
+)
 
 
 @pytest.fixture
@@ -238,7 +249,13 @@ def test_a_half_written_data_set_is_refused_in_one_sentence(stored: Path, file: 
 def test_a_table_of_more_numbers_than_memory_is_refused(stored: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A column that repeats one number takes hardly a byte for a million."""
     monkeypatch.setattr("signimit_envs.recording.formats.lerobot.frames.MAX_BYTES", 8 * 1000)
-    with pytest.raises(si.SignimitError, match="expected at most 1000 numbers, found"):
+    with pytest.raises(si.SignimitError, match="expected at most 8000 bytes of numbers, found more"):
+        read_lerobot_recording(stored)
+
+
+def test_damaged_statistics_of_a_table_are_refused_and_do_not_end_the_process(stored: Path) -> None:
+    (stored / DATA).write_bytes(base64.b64decode(DAMAGED))
+    with pytest.raises(si.SignimitError, match="expected a whole LeRobot data set, found OSError"):
         read_lerobot_recording(stored)
 
 
