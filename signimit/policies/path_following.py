@@ -147,8 +147,10 @@ class PathFollowingPolicy(StoredPolicy):
         square = (distance / (self.near * self.half_size)) ** 2
         follow = 1.0 / (1.0 + square * square)
         pull = xp.minimum(self.pull, self.reach_speed / xp.maximum(distance, 1e-9))
+        near = follow > 0.5
+        follow *= near | (nodes > 0) if self.whole else 1.0  # not past the beginning before having been there
         velocity = np.array([follow * ahead_x + pull * gap_x, follow * ahead_y + pull * gap_y]).T
-        onward = self._clip(nodes + (follow > 0.5), xp)
+        onward = self._clip(nodes + near, xp)
         if xp is np:
             onward.setflags(write=False)
         return velocity, onward

@@ -157,3 +157,13 @@ def test_a_primitive_of_an_old_file_starts_where_the_hand_is() -> None:
     old = DMPPolicy.from_arrays(stored, "old.npz")
     state, _ = old.step(old.start(), [0.3, 0.3])
     assert bool(state.drawing)
+
+
+@pytest.mark.parametrize("speed", [0.1, 0.4, 1.0])
+def test_a_movement_that_begins_fast_is_begun_from_everywhere(speed: float) -> None:
+    """A hand that is to draw a line is not pushed past its beginning, where it would hang between push and pull."""
+    line = np.column_stack([np.arange(0.0, 0.2, PERIOD * speed), np.zeros(len(np.arange(0.0, 0.2, PERIOD * speed)))])
+    policy = PathFollowingPolicy(line, closed=0.0, half_size=0.1, reach_speed=0.35, whole=1.0)
+    paths = run_policy(policy, np.concatenate([HANDS, [[0.2, 0.0], [0.05, 0.0], [0.1, 0.01]]]), 8.0)
+    np.testing.assert_allclose(paths[-1], np.tile(line[-1], (len(HANDS) + 3, 1)), atol=0.001)
+    assert np.hypot(*np.moveaxis(paths - line[0], -1, 0)).min(axis=0).max() < 0.01
