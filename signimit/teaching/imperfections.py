@@ -1,4 +1,4 @@
-"""Imperfections of demonstrations: answers to something else, drawings beside the point, hands that go home.
+"""Imperfections of demonstrations: wrong answers, drawings beside the point, hands that go home, tremble or stop early.
 
 Each takes the demonstrations of a session and their ground truth, and returns both anew. Words and scenes stay; only
 the hand does something else. The truth of a spoilt demonstration is what its words ask for.
@@ -15,10 +15,15 @@ from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration, DemonstrationSet
 from signimit.exceptions import InvalidInputError
+from signimit.policies import CONTROL_PERIOD
 from signimit.teaching.composition import GroundTruth, compose_loops, compose_path, draw_loops
 from signimit.teaching.scenes import SCENE_HALF_EXTENT, reaching_path, sample_hand, sample_times
 from signimit.teaching.stroke_sampler import StrokeSource
 
+TREMOR = 0.0012  # m, amplitude of a hand that trembles
+TREMOR_FREQUENCY = (8.0, 12.0)  # Hz, of physiological tremor
+SLOW_PERIOD = 0.1  # s between two samples of a slow camera
+LEFT_OUT = (0.05, 0.25)  # of a demonstration of two rounds, by who stops early: less than a round
 CLEAR = 0.07  # m from every object to the middle of a drawing that is about none: half of how near objects may be
 
 
@@ -97,6 +102,39 @@ def go_home(
     for t, demonstration in enumerate(demonstrations):
         hand = demonstration.hand
         hands[t] = np.concatenate([hand, reaching_path(hand[-1], hand[0])[1:], hand[:1]])
+    return _with_hands(demonstrations, hands), truth
+
+
+def tremble(
+    demonstrations: DemonstrationSet,
+    truth: GroundTruth,
+    movements: StrokeSource,
+    rng: np.random.Generator,
+    /,
+) -> tuple[DemonstrationSet, GroundTruth]:
+    """Let every hand tremble, and be seen ten times a second only."""
+    changed = []
+    for demonstration in demonstrations:
+        frequency, phase = rng.uniform(*TREMOR_FREQUENCY, 2), rng.uniform(0.0, 2 * np.pi, 2)
+        shaken = TREMOR * np.sin(2 * np.pi * frequency * demonstration.times[:, None] + phase)
+        seen = np.arange(0, len(demonstration.hand), round(SLOW_PERIOD / CONTROL_PERIOD))
+        hand, times = (demonstration.hand + shaken)[seen], demonstration.times[seen]
+        changed.append(Demonstration(demonstration.signs, demonstration.objects, hand, times))
+    return DemonstrationSet(changed), truth
+
+
+def stop_early(
+    demonstrations: DemonstrationSet,
+    truth: GroundTruth,
+    movements: StrokeSource,
+    rng: np.random.Generator,
+    /,
+) -> tuple[DemonstrationSet, GroundTruth]:
+    """Let every hand stop before its last round is whole."""
+    hands = {}
+    for t, demonstration in enumerate(demonstrations):
+        length = len(demonstration.hand)
+        hands[t] = demonstration.hand[: length - round(rng.uniform(*LEFT_OUT) * length)]
     return _with_hands(demonstrations, hands), truth
 
 

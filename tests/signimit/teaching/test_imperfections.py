@@ -9,7 +9,17 @@ from numpy.testing import assert_array_equal
 from signimit import DemonstrationSet, InvalidInputError, StrokeLibrary
 from signimit.paths import box_centre
 from signimit.teaching.composition import GroundTruth, compose_demonstrations
-from signimit.teaching.imperfections import CLEAR, Imperfection, answer_wrongly, draw_beside_the_point, go_home
+from signimit.teaching.imperfections import (
+    CLEAR,
+    SLOW_PERIOD,
+    TREMOR,
+    Imperfection,
+    answer_wrongly,
+    draw_beside_the_point,
+    go_home,
+    stop_early,
+    tremble,
+)
 from signimit.teaching.languages import PAPER_LANGUAGE
 from signimit.teaching.people import SIGN_LABELS, synthetic_library
 from signimit.teaching.scenes import LEAST_SEPARATION
@@ -83,6 +93,27 @@ def test_a_hand_goes_home_by_a_smooth_reach_and_nothing_is_spoilt(
         home = np.linalg.norm(np.diff(b.hand[len(a.hand) - 1 :], axis=0), axis=1)
         assert 0 < home[0] < home.max() / 3
         assert home[-1] < home.max() / 3
+
+
+def test_a_trembling_hand_is_seen_seldom_and_stays_near_its_way(
+    session: tuple[DemonstrationSet, GroundTruth], movements: StrokeLibrary
+) -> None:
+    after, truth = spoil(session, movements, tremble)
+    assert truth.sound.all()
+    for a, b in zip(session[0], after, strict=True):
+        np.testing.assert_allclose(np.diff(b.times), SLOW_PERIOD)
+        off = np.abs(b.hand - a.hand[np.searchsorted(a.times, b.times - 1e-9)])
+        assert TREMOR / 2 < off.max() <= TREMOR
+
+
+def test_a_hand_that_stops_early_leaves_out_less_than_its_last_round(
+    session: tuple[DemonstrationSet, GroundTruth], movements: StrokeLibrary
+) -> None:
+    after, truth = spoil(session, movements, stop_early)
+    assert truth.sound.all()
+    for a, b in zip(session[0], after, strict=True):
+        assert len(a.hand) / 2 < len(b.hand) < len(a.hand)
+        assert_array_equal(b.hand, a.hand[: len(b.hand)])
 
 
 def test_wrong_answers_come_on_top_of_each_other_and_never_more_than_there_are_demonstrations(
