@@ -26,6 +26,8 @@ from signimit.signs import prototype_points
 from signimit.strokes import Stroke
 from signimit.validation import finite_array, item_list, make_generator, moving_points
 
+LEAST_CONFIDENCE = 0.5  # of an answer; below a half it is more often wrong than right
+
 
 @one_line
 class Movement(NamedTuple):
@@ -174,7 +176,9 @@ class ImitationModel:
         confidence = float(reading.movement[movement] * reading.focus[focus] * reading.known)
         return Response(movement, focus, self.policy(movement).at(places[focus]), confidence)
 
-    def respond_if_sure(self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float = 0.5) -> Response | None:
+    def respond_if_sure(
+        self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float = LEAST_CONFIDENCE
+    ) -> Response | None:
         """Answer as `respond` does, or decline: return None where the confidence is below ``least``.
 
         Args:

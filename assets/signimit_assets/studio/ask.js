@@ -11,6 +11,12 @@ import { accept, inBackground, objectName, path, people, refresh, store, subscri
 const INVITATION = "Draw two signs; the arm answers as the second one is done.";
 const UNTAUGHT = "The robot has not been taught anything yet. Demonstrate something first, in Teach.";
 
+/** Say how an answer was understood, and what the arm makes of it. */
+function understood({ text, held }, done) {
+  if (held) return `Not sure, so the arm waits. Did you mean ${text}? If not, draw the two signs again.`;
+  return `${capital(text)}${done ? ". Done." : ""}`;
+}
+
 export class Ask {
   /**
    * @param {LiveTable} live
@@ -23,6 +29,7 @@ export class Ask {
     this.request = null;
     this.asked = null;
     this.asking = false;
+    this.done = null; // number of the answer whose movement came to its end
     this.table = new AskTable(byId("ask-stage"), live, (header) => this.framed(header));
     this.pads = [1, 2].map((number) => new SignPad(number, (byHand) => this.signed(number, byHand), () => this.started(number)));
     byId("ask-pads").append(...this.pads.map((pad) => pad.element));
@@ -115,8 +122,33 @@ export class Ask {
     });
   }
 
+  /** Let the arm do what it has asked back about. */
+  insist() {
+    return attempt(async () => {
+      this.asked = await api.post(path(`answers/${this.asked.number}/insist`));
+      await refresh();
+      this.tell();
+    });
+  }
+
+  /** Ask for the same once more, with the same signs. */
+  repeat() {
+    const { number, request } = this.asked;
+    return attempt(async () => {
+      const { signs } = await api.get(path(`answers/${number}`));
+      this.pads.forEach((pad, i) => pad.put([fitted(signs[i])]));
+      this.request = request;
+      await this.ask();
+    });
+  }
+
   framed(header) {
     const strange = header.session !== null && header.session !== store.session?.id;
+    const done = strange ? null : header.done;
+    if (done !== this.done) {
+      this.done = done;
+      this.tell();
+    }
     byId("ask-hint").textContent = strange
       ? "Another session has the table; it comes here when you ask, or with New scene."
       : "Drag the objects; flick the hand to shove it.";
@@ -138,7 +170,10 @@ export class Ask {
   tell() {
     const taught = store.session.demonstrations.length > 0;
     const answer = this.asked && (store.session.answers[this.asked.number] ?? this.asked);
-    const sentence = answer ? `${capital(answer.text)}` : taught ? INVITATION : UNTAUGHT;
+    const done = answer && this.done === answer.number;
+    const sentence = answer ? understood(answer, done) : taught ? INVITATION : UNTAUGHT;
+    byId("ask-insist").hidden = !answer?.held;
+    byId("ask-again").hidden = !done;
     const host = byId("ask-sentence");
     if (host.textContent !== sentence) host.textContent = sentence;
     this.showVerdict(answer);
@@ -157,6 +192,10 @@ export class Ask {
       return [good, made];
     };
     this.thumbs = [thumb(true, "Right", "That is what I asked for"), thumb(false, "Wrong", "That is not what I asked for")];
+    byId("ask-choices").append(
+      button("Move anyway", () => this.insist(), { className: "main", id: "ask-insist", hidden: true }),
+      button("Do it again", () => this.repeat(), { id: "ask-again", hidden: true }),
+    );
     byId("ask-verdict").append(...this.thumbs.map(([, made]) => made));
   }
 
@@ -198,11 +237,12 @@ export class Ask {
       const wanted = answer.request && language
         ? `asked for: ${language.movements[answer.request.movement]} about ${objectName(answer.request.focus)}`
         : "";
+      const waits = answer.held ? "· the arm asked back" : "";
       const verdict = { true: "· judged right", false: "· judged wrong", null: "" }[String(answer.verdict)];
       return make(
         "li",
         {},
-        make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
+        make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${waits} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
         button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number + 1}` }),
       );
     });

@@ -1,8 +1,9 @@
 /** What the robot believes: each demonstration, the movements, the words, their order, its doubts and its wish. */
 
+import * as api from "./api.js";
 import { attempt, button, byId, capital, make, percent, plural } from "./dom.js";
 import { beliefSentence, movementPicture, objectPatch, scenePicture, signPicture } from "./pictures.js";
-import { demonstration, objectName, store, subscribe } from "./store.js";
+import { change, demonstration, objectName, path, store, subscribe } from "./store.js";
 
 const NEIGHBOURHOOD = 0.17; // m about the object that is shown of a movement
 const ORDINALS = ["first", "second"];
@@ -141,11 +142,21 @@ function movementCard(belief) {
       "li",
       { className: "meaning" },
       movementPicture(word.drawings, `Movement ${number + 1}, as it was drawn about the object`, NEIGHBOURHOOD),
-      make("div", {}, make("b", { textContent: `Movement ${number + 1}` }), chips(belief, members)),
+      make("div", {}, make("b", { textContent: `Movement ${number + 1}` }), nameField(belief, number), chips(belief, members)),
       signs(word.strokes, `means movement ${number + 1}`),
     );
   });
   return card(`${plural(belief.movements.length, "movement")}, and the signs for them`, make("ul", { className: "plain-list" }, ...rows));
+}
+
+/** A field for what a person calls a movement; the robot is not told. */
+function nameField(belief, number) {
+  const label = `Name of movement ${number + 1}`;
+  const [value, maxLength] = [belief.names[number], store.studio.limits.title];
+  const field = make("input", { value, maxLength, placeholder: "name it", "aria-label": label });
+  const rename = () => change((revision) => api.post(path(`movements/${number}/name`), { revision, title: field.value.trim() }));
+  field.addEventListener("change", () => attempt(rename));
+  return field;
 }
 
 function objectCard(belief) {

@@ -5,6 +5,7 @@ import { announce, attempt, button, byId, capital, make, plural } from "./dom.js
 import { change, open, path, store, subscribe } from "./store.js";
 
 const KINDS = {
+  "model.npz": "What was learned: model (.npz)",
   "demonstrations.npz": "Demonstration set (.npz)",
   "strokes.npz": "Stroke library (.npz)",
   "strokes.inkml": "InkML",
@@ -38,6 +39,7 @@ export class Keep {
       : [
           button("Open", () => this.switchTo(one.id), { "aria-label": `Open ${one.title}` }),
           button("Merge into this one", () => this.merge(one), { "aria-label": `Merge ${one.title} into the open session` }),
+          this.deleter(one),
         ];
     const title = here ? this.titleField(one.title) : make("b", { textContent: one.title });
     return make(
@@ -66,6 +68,20 @@ export class Keep {
   async merge({ id, title }) {
     const merged = await attempt(() => change((revision) => api.post(path("merge"), { revision, other: id })));
     if (merged) announce(`${title} is merged into this session; undo in Teach takes it back.`);
+  }
+
+  /** A button that deletes a session for good, once it was pressed twice. */
+  deleter({ id, title }) {
+    const made = button("Delete", () => this.remove(made, id, title), { "aria-label": `Delete ${title}` });
+    made.addEventListener("blur", () => sayDelete(made, "Delete", title));
+    return made;
+  }
+
+  async remove(pressed, id, title) {
+    if (pressed.textContent === "Delete") return sayDelete(pressed, "Delete for good", title);
+    const deleted = await attempt(() => api.remove(`sessions/${id}`));
+    if (deleted) announce(`${title} is deleted.`);
+    return this.enter();
   }
 
   makeNew() {
@@ -140,6 +156,11 @@ export class Keep {
       ),
     );
   }
+}
+
+function sayDelete(pressed, text, title) {
+  pressed.textContent = text;
+  pressed.setAttribute("aria-label", `${text}: ${title}`);
 }
 
 const languageName = (name) => (name === "paper" ? "the paper's language" : capital(name));

@@ -87,7 +87,9 @@ export function beliefSentence(belief, number) {
   const focus = belief.focus[number];
   if (focus < 0) return "None of the movements that the others show";
   const sure = percent(belief.focus_probability[number][focus]);
-  return capital(`movement ${belief.labels[number] + 1} about the ${objectName(focus)} object, ${sure}`);
+  const movement = belief.labels[number];
+  const called = belief.names[movement] ? ` (${belief.names[movement]})` : "";
+  return capital(`movement ${movement + 1}${called} about the ${objectName(focus)} object, ${sure}`);
 }
 
 /** A thumb, up or down. */

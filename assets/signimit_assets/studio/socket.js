@@ -4,7 +4,7 @@ const RETRY = [500, 1000, 2000, 4000]; // ms
 const FULL = 4503;
 
 export class LiveTable {
-  /** @param {{frame, changed, demo, state}} listeners called with what comes in */
+  /** @param {{frame, changed, deleted, demo, state}} listeners called with what comes in */
   constructor(listeners) {
     this.listeners = listeners;
     this.watching = false;

@@ -26,6 +26,7 @@ async function begin() {
   const live = new LiveTable({
     frame: (header, jpeg) => store.view === "ask" && views.ask.table.frame(header, jpeg),
     changed: ({ session, events }) => session === store.session?.id && inBackground(() => refresh(events)),
+    deleted: ({ session }) => inBackground(() => deleted(session)),
     demo: (scene) => inBackground(() => follow(scene)),
     state: connection,
   });
@@ -46,6 +47,14 @@ async function openSomething(id) {
   const { sessions } = await get("sessions");
   const wanted = [id, store.studio.demo].find((one) => sessions.some((known) => known.id === one)) ?? sessions[0]?.id;
   await open(wanted ?? (await post("sessions", { language: "paper" })).id);
+}
+
+/** Somebody deleted a session: if it is the open one, another one is opened. */
+async function deleted(id) {
+  if (store.session?.id === id) {
+    await openSomething(null);
+    showError("The session that was open here was deleted in another page.");
+  } else if (store.view === "keep") await views.keep.enter();
 }
 
 function header(session) {

@@ -28,6 +28,7 @@ from signimit.policies import POLICY_KINDS
 from signimit_envs.recording import EpisodeRecorder, Recording, save_recording
 from signimit_envs.recording.formats import write_data
 from signimit_envs.studio.page.exports import FORMATS as STUDIO_FORMATS
+from signimit_envs.studio.page.exports import Lesson
 from signimit_envs.studio.store.events import (
     Asked,
     Created,
@@ -35,7 +36,9 @@ from signimit_envs.studio.store.events import (
     Demonstrated,
     Drafted,
     DrawnDemonstration,
+    Insisted,
     Judged,
+    Named,
     Redone,
     Redrawn,
     Titled,
@@ -267,7 +270,8 @@ def write_studio_session(folder: Path) -> Iterator[Path]:
         events = (
             *(Demonstrated(shown[:2]), Demonstrated(shown[2:]), Redrawn(1, shown[0]), Deleted(3), Undone(), Redone()),
             *(Drafted(None, {"sign 1": signs, "hand": ()}), Drafted(1, {"question": signs}), Titled("second")),
-            *(Asked(signs, 0, 1, 0.75), Judged(0, True), Judged(0, None)),
+            *(Asked(signs, 0, 1, 0.25, None, True, "wave"), Insisted(0), Judged(0, True), Judged(0, None)),
+            Named(0, "wave"),
         )
         for event in events:
             store.append(session, event)
@@ -280,7 +284,9 @@ def write_studio_session(folder: Path) -> Iterator[Path]:
 def write_studio_exports(folder: Path) -> Iterator[Path]:
     """Write demonstrations in each format that the studio exports and imports."""
     for name, known in STUDIO_FORMATS.items():
-        known.write(drawn_demonstrations(), None, folder / name)
+        shown = drawn_demonstrations()
+        model = learn(DemonstrationSet(one.demonstration for one in shown))
+        known.write(Lesson(shown, None, model), folder / name)
         yield folder / name
 
 

@@ -26,6 +26,7 @@ from signimit_envs.studio.store.events import (
     Demonstrated,
     DrawnDemonstration,
     Event,
+    Insisted,
     Judged,
     Redrawn,
 )
@@ -195,7 +196,12 @@ class OpenSession:
         if learned is not None:
             self._learner.submit(self._prepare_policies, learned)
 
-    async def note(self, event: Asked | Judged) -> History:
+    async def delete(self) -> None:
+        """Delete what is on the disk of it, between two changes."""
+        async with self._lock:
+            await asyncio.to_thread(self._store.delete, self.name)
+
+    async def note(self, event: Asked | Insisted | Judged) -> History:
         """Add what is no edit; goes on to the end even if the caller goes away.
 
         Returns:

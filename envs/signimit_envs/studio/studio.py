@@ -16,6 +16,9 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from signimit.exceptions import InvalidInputError
+from signimit.learning import LEAST_CONFIDENCE
+from signimit.policies import Policy
 from signimit.teaching.languages import Request
 from signimit.teaching.scenes import sample_hand, sample_scene
 from signimit_envs.arm.scene import CONTROL_RATE
@@ -25,9 +28,9 @@ from signimit_envs.studio.arm.live_state import Task, TrackPart
 from signimit_envs.studio.arm.viewers import Viewers
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.open_session import NotFoundError, OpenSession
-from signimit_envs.studio.page.belief import understood_text
+from signimit_envs.studio.page.belief import movement_names, understood_text
 from signimit_envs.studio.page.pictures import FigureCache
-from signimit_envs.studio.store.events import Asked, Created, Signs
+from signimit_envs.studio.store.events import Asked, Created, Insisted, Signs
 from signimit_envs.studio.store.history import History
 from signimit_envs.studio.store.sessions import SessionStore
 
@@ -124,17 +127,61 @@ class Studio:
     async def ask(self, session: OpenSession, signs: Signs, request: Request | None) -> int:
         """Let the arm answer signs, on the table as it is; return the number of the answer.
 
+        An arm that is not sure holds still, until a person insists (`insist`).
+
         Raises:
             InvalidInputError: If nothing was learned yet, or the signs cannot be used.
         """
-        model, state = session.model, self.arm.state
-        objects = state.objects if state.session == session.name else self.set_table(session)[0]
+        model, objects = session.model, self._table(session)
         response = await asyncio.to_thread(model.respond, [sign.points for sign in signs], objects)
         policy = await asyncio.to_thread(model.policy, response.movement)
-        understood = response.movement, response.focus, response.confidence
-        number = len((await session.note(Asked(signs, *understood, request))).answers) - 1
-        self.arm.obey(Task(session.name, number, policy, response.focus, understood_text(*understood)))
+        name = movement_names(model, session.history)[response.movement]
+        held = response.confidence < LEAST_CONFIDENCE
+        asked = Asked(signs, response.movement, response.focus, response.confidence, request, held, name)
+        number = len((await session.note(asked)).answers) - 1
+        if held:
+            self._hold(session)
+        else:
+            self.arm.obey(_task(session, number, policy, asked))
         return number
+
+    async def insist(self, session: OpenSession, number: int) -> None:
+        """Let the arm do what it has asked back about.
+
+        Raises:
+            InvalidInputError: If it has not, or does not understand the signs so any more.
+        """
+        asked, model = session.answer(number).asked, session.model
+        if not session.answer(number).held:
+            raise InvalidInputError(f"answer {number + 1}", "one that the arm has asked back about", "another")
+        again = await asyncio.to_thread(model.respond, [sign.points for sign in asked.signs], self._table(session))
+        if (again.movement, again.focus) != (asked.movement, asked.focus):
+            raise InvalidInputError(
+                f"answer {number + 1}", "signs that are still understood so", "others; please ask again"
+            )
+        policy = await asyncio.to_thread(model.policy, asked.movement)
+        await session.note(Insisted(number))
+        self.arm.obey(_task(session, number, policy, asked))
+
+    async def delete(self, session: OpenSession) -> None:
+        """Delete a session with all that is on the disk of it; pages that show it are told."""
+        async with self._opening:
+            self._hold(session)
+            await session.delete()
+            self._open.pop(session.name, None)
+            if session in self._recent:
+                self._recent.remove(session)
+        self.viewers.tell({"type": "deleted", "session": session.name})
+
+    def _table(self, session: OpenSession) -> NDArray[np.float64]:
+        """Return where objects are on the live table, m; another session's is set anew."""
+        state = self.arm.state
+        return state.objects if state.session == session.name else self.set_table(session)[0]
+
+    def _hold(self, session: OpenSession) -> None:
+        """Let the arm hold still, if it moves for this session."""
+        if self.arm.state.session == session.name:
+            self.arm.rest()
 
     async def render(self, work: Callable[[], Result]) -> Result:
         """Make a figure or film or read a file, one at a time in a thread: of processor and memory the arm needs some.
@@ -167,3 +214,8 @@ class Studio:
             self.store.append_track(part.task.session, part.task.answer, line)
         except OSError:
             _log.exception("what the arm did could not be written")
+
+
+def _task(session: OpenSession, number: int, policy: Policy, asked: Asked) -> Task:
+    text = understood_text(asked.movement, asked.focus, asked.confidence, asked.name)
+    return Task(session.name, number, policy, asked.focus, text)

@@ -71,7 +71,7 @@ def test_frames_come_to_who_watches_with_what_is_in_them(page: Any, socket: Any)
     _say(socket, type="watch", on=True)
     header, picture = _next_frame(socket)
     assert set(header) == {
-        "session", "answer", "time", "hand", "objects", "trail", "text", "focus", "moving", "shoved",
+        "session", "answer", "time", "hand", "objects", "trail", "text", "focus", "moving", "done", "shoved",
     }  # fmt: skip
     assert picture.startswith(b"\xff\xd8") or (why_not and not picture)
 
@@ -288,7 +288,9 @@ def test_a_waiting_page_wakes_for_a_frame_from_another_thread() -> None:
 def test_states_are_told_in_numbers_that_json_can_say() -> None:
     from signimit_envs.studio.arm.camera import frame_header
 
-    state = LiveState(None, None, 0.1, 0.1, np.zeros(3), np.ones(2) / 3, np.zeros((3, 2)), ((0.1, 0.2),), False, 0.0)
+    state = LiveState(
+        None, None, None, 0.1, 0.1, np.zeros(3), np.ones(2) / 3, np.zeros((3, 2)), ((0.1, 0.2),), False, 0.0
+    )
     header = json.loads(json.dumps(frame_header(state), allow_nan=False))
     assert header["hand"] == [0.3333, 0.3333]
     assert header["moving"] is False

@@ -165,5 +165,6 @@ def frame_header(state: LiveState) -> dict[str, Any]:
         "text": task.text if task else "",
         "focus": task.focus if task else None,
         "moving": task is not None,
+        "done": state.done,
         "shoved": state.shoved,
     }

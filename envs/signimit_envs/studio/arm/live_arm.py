@@ -21,6 +21,7 @@ from signimit_envs.tabletop_hand import TabletopHandEnv
 OBJECT_WIDTH = 0.08  # m; the middles of two objects that touch are so far apart
 ANSWER_SECONDS = 60.0  # after which the arm rests
 TRAIL_SECONDS, TRAIL_STRIDE = 8.0, 2  # of the past; control steps between its points
+REST_SPEED, REST_SECONDS = 0.005, 0.5  # m/s; a policy that asks for no more for so long has come to its end
 PART_STEPS = CONTROL_RATE  # of a track that are handed over at once
 PUSH_SECONDS = 0.25
 FASTEST_PUSH = 1.0  # m/s, drift; more is cut to it
@@ -117,7 +118,8 @@ class LiveArm:
         self._policy_state: Any = None
         self._force: ExternalForce | None = None
         self._track: list[tuple[Array, Array, Array]] = []
-        self._recorded = 0
+        self._recorded = self._rested = 0
+        self._done: int | None = None
         self._trail: deque[tuple[float, float]] = deque(maxlen=round(TRAIL_SECONDS * CONTROL_RATE / TRAIL_STRIDE))
         self._set_table(3)
         self._put(None, np.array([[-0.2, 0.05], [0.0, 0.15], [0.2, -0.05]]), np.zeros(2))
@@ -151,7 +153,7 @@ class LiveArm:
                 return
             self._end()
             self._trail.clear()
-            self._task, self._recorded = task, 0
+            self._task, self._recorded, self._rested = task, 0, 0
             self._policy_state = task.policy.start()
 
         self._inbox.put(begin)
@@ -199,6 +201,7 @@ class LiveArm:
         if self._task is not None:
             hand = self._state.hand - self._objects[self._task.focus]
             self._policy_state, velocity = self._task.policy.step(self._policy_state, hand)
+            self._rested = self._rested + 1 if np.hypot(*velocity) < REST_SPEED else 0
         observation, _, failed, _, _ = env.step(hand_action(velocity))
         if failed:  # it was put back as it was when the table was set
             self._force = None
@@ -228,6 +231,7 @@ class LiveArm:
         self._state = LiveState(
             session=self._session,
             task=self._task,
+            done=self._done,
             time=self._steps / CONTROL_RATE,
             clock=time.perf_counter() - self._started_at,
             joints=observation["joints"],
@@ -246,6 +250,10 @@ class LiveArm:
             self._hand_over()
         if self._recorded >= ANSWER_SECONDS * CONTROL_RATE:
             self._end()
+        elif self._rested >= REST_SECONDS * CONTROL_RATE:
+            done = None if self._task is None else self._task.answer
+            self._end()
+            self._done = done
 
     def _hand_over(self) -> None:
         if self._task is not None and self._track:
@@ -269,7 +277,7 @@ class LiveArm:
 
     def _end(self) -> None:
         self._hand_over()
-        self._task = None
+        self._task = self._done = None
 
     def _place_objects(self) -> None:
         self._env.data.mocap_pos[self._bodies, :2] = self._objects

@@ -56,6 +56,7 @@ class LiveState:
     Attributes:
         session: Name of the session whose table it is.
         task: What the arm carries out; none while it rests.
+        done: Number of the last answer, if its movement came to its end by itself; none otherwise.
         time: Simulated time since the arm was started, s.
         clock: Time since then on the clock, s.
         joints: Joint angles, shape (3,), rad.
@@ -68,6 +69,7 @@ class LiveState:
 
     session: str | None
     task: Task | None
+    done: int | None
     time: float
     clock: float
     joints: Array
@@ -82,6 +84,7 @@ def is_alike(one: LiveState, other: LiveState) -> bool:
     """Tell whether two states look the same: a frame of the one will do for the other."""
     return (
         one.task is other.task
+        and one.done == other.done
         and one.session == other.session
         and np.array_equal(one.objects, other.objects)
         and float(np.abs(one.joints - other.joints).max()) < 1e-5

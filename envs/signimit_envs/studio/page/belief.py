@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ from signimit.explanation import SUSPECT, Reasons, is_word_order_clear, object_n
 from signimit.learning import ImitationModel
 from signimit.paths import resample_path
 from signimit.signs import normalised_sign
+from signimit_envs.studio.page.prompts import get_language
+from signimit_envs.studio.store.history import History
 
 _SIGN_POINTS, _DRAWING_POINTS = 2, 64  # every second of a sign's 64 points; points of a drawing
 _MOST_EXAMPLES = 6  # of a word or a movement; more would not be seen
@@ -96,9 +99,30 @@ def doubts(reasons: Reasons) -> list[dict[str, Any]]:
     ]
 
 
-def understood_text(movement: int, focus: int, confidence: float) -> str:
-    """Return a sentence of what was understood, which counts from 1, e.g. "movement 2 about the green object, 94 %"."""
-    return f"movement {movement + 1} about the {object_name(focus)} object, {100 * confidence:.0f} %"
+def understood_text(movement: int, focus: int, confidence: float, name: str = "") -> str:
+    """Return a sentence of what was understood, which counts from 1.
+
+    E.g. "movement 2 about the green object, 94 %", or "movement 2 (circle) about ..." if it has a name.
+    """
+    called = f" ({name})" if name else ""
+    return f"movement {movement + 1}{called} about the {object_name(focus)} object, {100 * confidence:.0f} %"
+
+
+def movement_names(model: ImitationModel, history: History) -> list[str]:
+    """Return what people call each movement: by the name given last, or by the prompt of most of its demonstrations.
+
+    The robot is told none of them. A movement without a name gets an empty text.
+    """
+    language, names = get_language(history.created.language), list(history.names)
+    found = []
+    for movement in model.movements:
+        members = [history.shown[t] for t in movement.members]
+        given = max(members, key=lambda one: names.index(one) if one in history.names else -1)
+        prompts = Counter(one.prompt.movement for one in members if one.prompt is not None)
+        likely, count = prompts.most_common(1)[0] if prompts else (0, 0)
+        asked = language.movements[likely] if language is not None and 2 * count > len(members) else ""
+        found.append(history.names.get(given) or asked)
+    return found
 
 
 def _signs_json(model: ImitationModel, word: int, which: NDArray[np.bool_]) -> list[Any]:

@@ -1,4 +1,4 @@
-"""Export and import of demonstrations: demonstration sets, stroke libraries, InkML and CSV.
+"""Export and import of a session: its model, demonstration sets, stroke libraries, InkML and CSV.
 
 A stroke file holds each demonstration as W signs, then the objects' places as a "stroke" with the label `PLACES`, then
 the hand's path. So the strokes are found under their labels, and nothing is lost.
@@ -23,6 +23,7 @@ from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.formats.inkml import read_inkml, write_inkml
 from signimit.io.formats.pen_recording import SAMPLE_TIME
 from signimit.io.safe_files import replaced_file
+from signimit.learning import ImitationModel
 from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching.languages import Language
 from signimit_envs.arm.scene import OBJECT_COUNTS
@@ -38,31 +39,45 @@ _COLUMNS = ("stroke", "label", "writer", "x", "y", "t")
 Demonstrations = Sequence[DrawnDemonstration]
 
 
+class Lesson(NamedTuple):
+    """What a session has to export.
+
+    Attributes:
+        shown: The demonstrations.
+        language: Language of their prompts; none for made-up signs.
+        model: What was learned from them; none if nothing could be.
+    """
+
+    shown: Demonstrations
+    language: Language | None
+    model: ImitationModel | None
+
+
 class ExportFormat(NamedTuple):
-    """A file format of demonstrations.
+    """A file format of a session.
 
     Attributes:
         media_type: What a browser is told.
-        write: Writes demonstrations in a language, if in one, to a path.
-        read: Reads them from a path.
+        write: Writes a lesson to a path.
+        read: Reads the demonstrations from a path.
     """
 
     media_type: str
-    write: Callable[[Demonstrations, Language | None, Path], None]
+    write: Callable[[Lesson, Path], None]
     read: Callable[[Path], list[DrawnDemonstration]]
 
 
-def export_bytes(name: str, shown: Demonstrations, language: Language | None) -> bytes:
-    """Return demonstrations as the bytes of a file.
+def export_bytes(name: str, lesson: Lesson) -> bytes:
+    """Return a lesson as the bytes of a file.
 
     Raises:
-        InvalidInputError: If there are none.
+        InvalidInputError: If there are no demonstrations, or the model is wanted and there is none.
     """
-    if not shown:
+    if not lesson.shown:
         raise InvalidInputError("session", "at least one demonstration", "none")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / name
-        FORMATS[name].write(shown, language, path)
+        FORMATS[name].write(lesson, path)
         return path.read_bytes()
 
 
@@ -118,8 +133,14 @@ def from_library(library: StrokeLibrary) -> list[DrawnDemonstration]:
     return found
 
 
-def _read_set(path: Path) -> list[DrawnDemonstration]:
-    """Read a set; signs have no times in it, and are taken to be sampled every 10 ms."""
+def _write_model(lesson: Lesson, path: Path) -> None:
+    if lesson.model is None:
+        raise InvalidInputError("session", "demonstrations that can be learned from", "others")
+    lesson.model.save(path)
+
+
+def _drawn(demonstrations: DemonstrationSet) -> list[DrawnDemonstration]:
+    """Take demonstrations of a set; signs have no times in it, and are taken to be sampled every 10 ms."""
     return [
         DrawnDemonstration(
             tuple(Stroke(sign, SAMPLE_TIME * np.arange(len(sign), dtype=np.float64)) for sign in one.signs),
@@ -128,15 +149,15 @@ def _read_set(path: Path) -> list[DrawnDemonstration]:
             None,
             "imported",
         )
-        for one in DemonstrationSet.load(path)
+        for one in demonstrations
     ]
 
 
-def _write_csv(shown: Demonstrations, language: Language | None, path: Path) -> None:
+def _write_csv(lesson: Lesson, path: Path) -> None:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(_COLUMNS)
-    library = to_library(shown, language)
+    library = to_library(lesson.shown, lesson.language)
     for number, (stroke, label, by) in enumerate(zip(library, library.labels, library.writers, strict=True)):
         points, times = stroke.points.tolist(), stroke.times.tolist()
         writer.writerows(
@@ -205,7 +226,7 @@ def _check_sizes(shown: Demonstrations) -> None:
     """
     if len(shown) > LIMITS.demonstrations:
         raise InvalidInputError("the file", f"at most {LIMITS.demonstrations} demonstrations", f"{len(shown)}")
-    for number, one in enumerate(shown):
+    for number, one in enumerate(shown, 1):
         where = f"demonstration {number}"
         if len(one.objects) not in OBJECT_COUNTS or len(one.signs) != WORDS:
             expected = f"{WORDS} signs and {OBJECT_COUNTS[0]} to {OBJECT_COUNTS[-1]} objects"
@@ -221,19 +242,22 @@ def _check_sizes(shown: Demonstrations) -> None:
 
 FORMATS: Mapping[str, ExportFormat] = MappingProxyType(
     {
+        "model.npz": ExportFormat(
+            "application/octet-stream", _write_model, lambda path: _drawn(ImitationModel.load(path).demonstrations)
+        ),
         "demonstrations.npz": ExportFormat(
             "application/octet-stream",
-            lambda shown, language, path: DemonstrationSet(one.demonstration for one in shown).save(path),
-            _read_set,
+            lambda lesson, path: DemonstrationSet(one.demonstration for one in lesson.shown).save(path),
+            lambda path: _drawn(DemonstrationSet.load(path)),
         ),
         "strokes.npz": ExportFormat(
             "application/octet-stream",
-            lambda shown, language, path: to_library(shown, language).save(path),
+            lambda lesson, path: to_library(lesson.shown, lesson.language).save(path),
             lambda path: from_library(StrokeLibrary.load(path)),
         ),
         "strokes.inkml": ExportFormat(
             "application/inkml+xml",
-            lambda shown, language, path: write_inkml(path, to_library(shown, language)),
+            lambda lesson, path: write_inkml(path, to_library(lesson.shown, lesson.language)),
             lambda path: from_library(read_inkml(path, strict=True)),
         ),
         "strokes.csv": ExportFormat("text/csv", _write_csv, _read_csv),

@@ -10,7 +10,7 @@ from signimit.explanation import object_name
 from signimit.teaching.languages import Language, Request
 from signimit_envs.studio.arm.live_state import LiveState
 from signimit_envs.studio.open_session import OpenSession
-from signimit_envs.studio.page.belief import sign_json, understood_text
+from signimit_envs.studio.page.belief import movement_names, sign_json, understood_text
 from signimit_envs.studio.page.built_in_people import examples
 from signimit_envs.studio.page.prompts import get_language, next_request, prompt_text, sign_labels
 from signimit_envs.studio.store.events import DrawnDemonstration, stroke_to_json
@@ -44,8 +44,16 @@ def session_json(session: OpenSession, state: LiveState) -> dict[str, Any]:
             "prompt": prompt,
             "left": left,
         },
-        "belief": learned.belief,
+        "belief": _belief_json(session),
     }
+
+
+def _belief_json(session: OpenSession) -> dict[str, Any] | None:
+    """Return what was learned, with what people call the movements."""
+    learned = session.learned
+    if learned.belief is None or learned.model is None:
+        return learned.belief
+    return {**learned.belief, "names": movement_names(learned.model, session.history)}
 
 
 def answer_json(session: OpenSession, number: int, answer: Answer, state: LiveState) -> dict[str, Any]:
@@ -56,7 +64,8 @@ def answer_json(session: OpenSession, number: int, answer: Answer, state: LiveSt
         "movement": asked.movement,
         "focus": asked.focus,
         "confidence": round(asked.confidence, 4),
-        "text": understood_text(asked.movement, asked.focus, asked.confidence),
+        "text": understood_text(asked.movement, asked.focus, asked.confidence, asked.name),
+        "held": answer.held,
         "verdict": answer.good,
         "request": _request_json(asked.request),
         "running": task is not None and (task.session, task.answer) == (session.name, number),

@@ -1,7 +1,7 @@
 """Events of a session: immutable values, and their JSON in the journal.
 
 A session is the list of its events. The JSON has the class's name in lower case and the field names, so neither may
-change: journals of every version are read for ever.
+change: journals of every version are read for ever. A field that is new has a default, for journals without it.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -157,6 +157,8 @@ class Asked:
         focus: Number of the object understood.
         confidence: Probability that both are right, by the model.
         request: What a built-in interactant meant; unknown of a person.
+        held: Whether the arm asked back instead of moving, as the confidence was too low.
+        name: What people called the movement then; empty without a name.
     """
 
     signs: Signs
@@ -164,6 +166,8 @@ class Asked:
     focus: int
     confidence: float
     request: Request | None = None
+    held: bool = False
+    name: str = ""
 
     def __post_init__(self) -> None:
         """Check what comes from a file.
@@ -174,6 +178,28 @@ class Asked:
         _check_indices("asked: movement, focus", self.movement, self.focus)
         if not 0 <= finite_array(self.confidence, "asked: confidence", ()) <= 1 + 1e-9:
             raise InvalidInputError("asked: confidence", "a probability", f"{self.confidence:g}")
+        if not isinstance(self.held, bool):
+            raise InvalidInputError("asked: held", "true or false", f"{self.held!r:.40}")
+        plain_text(self.name, "asked: name")
+
+
+@dataclass(frozen=True, eq=False)
+class Insisted:
+    """A person let the arm do what it had asked back about."""
+
+    number: int
+
+
+@dataclass(frozen=True, eq=False)
+class Named:
+    """The movement that a demonstration shows was given a name; an empty one takes the name away."""
+
+    number: int
+    name: str
+
+    def __post_init__(self) -> None:
+        """Check what comes from a file."""
+        plain_text(self.name, "named: name")
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,11 +225,10 @@ def _check_indices(where: str, *values: Any) -> None:
         raise InvalidInputError(where, "whole numbers, 0 or more", f"{values!r:.80}")
 
 
-Event = Created | Demonstrated | Redrawn | Deleted | Drafted | Undone | Redone | Titled | Asked | Judged
-_KINDS: Mapping[str, type[Event]] = {
-    kind.__name__.lower(): kind
-    for kind in (Created, Demonstrated, Redrawn, Deleted, Drafted, Undone, Redone, Titled, Asked, Judged)
-}
+Event = (
+    Created | Demonstrated | Redrawn | Deleted | Drafted | Undone | Redone | Titled | Named | Asked | Insisted | Judged
+)
+_KINDS: Mapping[str, type[Event]] = {kind.__name__.lower(): kind for kind in get_args(Event)}
 
 
 def event_to_json(event: Event) -> dict[str, Any]:
@@ -220,12 +245,18 @@ def event_from_json(value: Mapping[str, Any]) -> Event:
     """
     try:
         kind = _KINDS[value["event"]]
-        fields = [(field.name, _READERS.get(str(field.type))) for field in dataclasses.fields(kind)]
+        given = [field for field in dataclasses.fields(kind) if field.name in value or _is_needed(field)]
+        fields = [(field.name, _READERS.get(str(field.type))) for field in given]
         return kind(**{name: read(value[name]) if read else value[name] for name, read in fields})
     except (KeyError, TypeError, ValueError, AttributeError, OverflowError) as error:
         if isinstance(error, InvalidInputError):
             raise
         raise InvalidInputError("event", f"one of {', '.join(_KINDS)}, whole", f"{error!r:.80}") from None
+
+
+def _is_needed(field: dataclasses.Field[Any]) -> bool:
+    """Whether every journal has the field: one with a default may be missing, as older ones are without it."""
+    return field.default is dataclasses.MISSING
 
 
 def stroke_to_json(stroke: Stroke) -> dict[str, Any]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,9 @@ from signimit_envs.studio.store.events import (
     Drafted,
     DrawnDemonstration,
     Event,
+    Insisted,
     Judged,
+    Named,
     Redone,
     Redrawn,
     Signs,
@@ -40,10 +43,17 @@ class Answer:
     Attributes:
         asked: What was asked, and how it was understood.
         good: Whether a person judged it right; none without a verdict.
+        insisted: Whether a person let the arm do what it had asked back about.
     """
 
     asked: Asked
     good: bool | None = None
+    insisted: bool = False
+
+    @property
+    def held(self) -> bool:
+        """Whether the arm asked back instead of moving, and still waits."""
+        return self.asked.held and not self.insisted
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +83,7 @@ class History:
         shown: The demonstrations that count now.
         answers: What the arm was asked.
         draft: What is drawn and not sent yet; any edit of the demonstrations ends it, as the next table is another.
+        names: What the movement was called that a demonstration shows, the latest last.
         revision: How many edits there were; drafts, asking and judging are none.
         events: How many events there were.
         past: What undo brings back, the latest last.
@@ -84,6 +95,7 @@ class History:
     shown: Demonstrations = ()
     answers: tuple[Answer, ...] = ()
     draft: Draft = field(default_factory=Draft)
+    names: Mapping[DrawnDemonstration, str] = field(default_factory=dict)
     revision: int = 0
     events: int = 1
     past: tuple[Demonstrations, ...] = ()
@@ -140,6 +152,11 @@ def _apply(history: History, event: Event) -> History:
             return replace(history, shown=shown, past=past, future=future, revision=revision)
         case Titled(title):
             return replace(history, title=title, revision=revision)
+        case Named(number, name):
+            _check_number(number, len(history.shown), "demonstration")
+            named = history.shown[number]
+            others = {one: given for one, given in history.names.items() if one is not named}
+            return replace(history, names={**others, named: name}, revision=revision)
         case Drafted():
             return replace(history, draft=_drafted(history, event))
         case Asked():
@@ -148,11 +165,21 @@ def _apply(history: History, event: Event) -> History:
             _check_request(history, event.request, "asked: request")
             drawn = {place: strokes for place, strokes in draft.drawn.items() if place != QUESTION}
             return replace(history, answers=(*history.answers, Answer(event)), draft=replace(draft, drawn=drawn))
+        case Insisted(number):
+            return replace(history, answers=_changed_answer(history, number, insisted=True))
         case Judged(number, good):
-            _check_number(number, len(history.answers), "answer")
-            answers = list(history.answers)
-            answers[number] = replace(answers[number], good=good)
-            return replace(history, answers=tuple(answers))
+            return replace(history, answers=_changed_answer(history, number, good=good))
+
+
+def _changed_answer(history: History, number: int, **changed: Any) -> tuple[Answer, ...]:
+    """Return the answers with one of them changed.
+
+    Raises:
+        InvalidInputError: If there is none of that number.
+    """
+    _check_number(number, len(history.answers), "answer")
+    before, answer, after = history.answers[:number], history.answers[number], history.answers[number + 1 :]
+    return (*before, replace(answer, **changed), *after)
 
 
 def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> Demonstrations:
@@ -169,7 +196,7 @@ def _edited(history: History, event: Demonstrated | Redrawn | Deleted) -> Demons
         instead = (event.shown,) if isinstance(event, Redrawn) else ()
         edited = (*shown[: event.number], *instead, *shown[event.number + 1 :])
     words, objects = len(edited[0].signs) if edited else 0, history.created.objects
-    for number, one in enumerate(edited):
+    for number, one in enumerate(edited, 1):
         if len(one.signs) != words:
             raise InvalidInputError(f"demonstration {number}: signs", f"{words}", f"{len(one.signs)}")
         if len(one.objects) != objects:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import re
 import secrets
+import shutil
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -74,13 +75,27 @@ class SessionStore:
         """Add an event to a session's journal; on the disk when this returns.
 
         Raises:
-            InvalidInputError: If the journal is as large as it may become; it could not be read for ever.
+            InvalidInputError: If the journal is as large as it may become, as it could not be read for ever, or the
+                session was deleted.
             OSError: If it cannot be written.
         """
         journal = self._folder / session / _JOURNAL
+        if not journal.parent.is_dir():
+            raise InvalidInputError("session", "one that is there", "one that was deleted")
         if journal.exists() and journal.stat().st_size >= LIMITS.journal:
             raise InvalidInputError("session", f"at most {LIMITS.journal} bytes; begin another session", "more")
         append_record(journal, event_to_json(event))
+
+    def delete(self, session: str) -> None:
+        """Delete a session: its journal first, so that a process that is killed meanwhile leaves no half of one.
+
+        Raises:
+            OSError: If it cannot be deleted.
+        """
+        folder = self._folder / session
+        (folder / _JOURNAL).unlink()
+        shutil.rmtree(folder)
+        self._summaries.pop(session, None)
 
     def read(self, session: str) -> History:
         """Read a session from its journal, leaving out a line that a killed process left half written.
@@ -108,8 +123,9 @@ class SessionStore:
         return sorted(found, key=lambda one: one.id, reverse=True)
 
     def append_track(self, session: str, answer: int, part: dict[str, Any]) -> None:
-        """Append a part of the track of an answer."""
-        append_record(self._track(session, answer), part)
+        """Append a part of the track of an answer; of a session that was deleted meanwhile nothing is kept."""
+        if session in self:
+            append_record(self._track(session, answer), part)
 
     def read_track(self, session: str, answer: int) -> list[dict[str, Any]]:
         """Read the parts of the track of an answer; none if the arm did nothing.

@@ -68,7 +68,7 @@ Utterance = Annotated[list[StrokeMessage], Field(min_length=_WORDS, max_length=_
 
 def signs_of(utterance: list[StrokeMessage]) -> Signs:
     """Return the signs of an utterance."""
-    return tuple(message.stroke(f"sign {word}") for word, message in enumerate(utterance))
+    return tuple(message.stroke(f"sign {word}") for word, message in enumerate(utterance, 1))
 
 
 class NewSession(Strict):

@@ -26,7 +26,7 @@ OBJECTS = np.array([[-0.3, 0.25], [0.1, 0.1], [0.3, -0.2]])
 
 
 def _state(joints: NDArray[np.float64] = PARKED, objects: NDArray[np.float64] = OBJECTS) -> LiveState:
-    return LiveState(None, None, 0.0, 0.0, joints, np.zeros(2), objects, (), False, 0.0)
+    return LiveState(None, None, None, 0.0, 0.0, joints, np.zeros(2), objects, (), False, 0.0)
 
 
 class Watched:

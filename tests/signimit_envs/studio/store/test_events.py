@@ -142,3 +142,12 @@ def test_one_demonstration_is_no_list_of_them_and_a_list_is_not_one(
     mixed = {**one, "event": kind, "shown": (one if kind == "demonstrated" else several)["shown"]}
     with pytest.raises(InvalidInputError, match="event: expected one of created, demonstrated"):
         event_from_json(mixed)
+
+
+def test_a_question_of_a_journal_from_before_arms_asked_back_is_read() -> None:
+    sign = Stroke(np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([0.0, 1.0]))
+    line = event_to_json(Asked((sign, sign), 0, 1, 0.25))
+    older = {name: value for name, value in line.items() if name not in ("held", "name")}
+    read = event_from_json(older)
+    assert isinstance(read, Asked)
+    assert (read.held, read.name) == (False, "")

@@ -115,14 +115,14 @@ def test_what_is_not_there_cannot_be_changed(event: Event, shown: Make) -> None:
 
 
 def test_a_demonstration_with_other_objects_does_not_fit() -> None:
-    with pytest.raises(InvalidInputError, match="demonstration 0: objects: expected 4, found 3"):
+    with pytest.raises(InvalidInputError, match="demonstration 1: objects: expected 4, found 3"):
         replay_events([Created("", "", "free", 4, 0), Demonstrated((_shown_once(),))])
 
 
 def test_objects_in_one_place_are_no_scene() -> None:
     heap = replace(_shown_once(), objects=np.zeros((3, 2)))
     with pytest.raises(
-        InvalidInputError, match="demonstration 0: objects: expected places apart, found 3 in one place"
+        InvalidInputError, match="demonstration 1: objects: expected places apart, found 3 in one place"
     ):
         replay_events([BEGINNING, Demonstrated((heap,))])
 
@@ -181,7 +181,7 @@ def test_nobody_asks_for_what_a_session_does_not_have(change: dict[str, Any], to
 
 @pytest.mark.parametrize("request_", [Request(3, 0), Request(0, 3)])
 def test_a_prompt_that_the_language_does_not_have_is_refused(request_: Request, shown: Make) -> None:
-    with pytest.raises(InvalidInputError, match=r"demonstration 1: prompt: \w+: expected a number below"):
+    with pytest.raises(InvalidInputError, match=r"demonstration 2: prompt: \w+: expected a number below"):
         replay_events([BEGINNING, Demonstrated((shown(), replace(shown(), prompt=request_)))])
 
 

@@ -140,7 +140,7 @@ def test_merging_appends_the_demonstrations_of_another_session(page: Any, sessio
     assert len(page.post(f"{base}/undo", {"revision": merged["revision"]})["demonstrations"]) == 1
     five = page.post("sessions", {"language": "free", "objects": 5})
     refused = page.ask("POST", f"sessions/{five['id']}/merge", json={"revision": 0, "other": other["id"]})
-    assert (refused.status_code, refused.json()["error"]) == (422, "demonstration 0: objects: expected 5, found 3.")
+    assert (refused.status_code, refused.json()["error"]) == (422, "demonstration 1: objects: expected 5, found 3.")
 
 
 def test_a_session_in_made_up_signs_has_no_prompts_and_no_built_in_people(page: Any) -> None:
@@ -163,7 +163,7 @@ def test_the_simulated_hand_draws_the_right_movement_about_the_right_object_for_
     page.post(f"{base}/table", {})
     answer = page.post(f"{base}/ask", {"signs": page.signs(taught_id, request, 99), "request": request})
     assert answer["focus"] == request["focus"]
-    assert answer["text"].startswith(f"movement {answer['movement'] + 1} about the blue object, ")
+    assert answer["text"].startswith(f"movement {answer['movement'] + 1} (circle) about the blue object, ")
     for _ in range(240):
         time.sleep(0.25)
         track = page.get(f"{base}/answers/{answer['number']}")
@@ -185,6 +185,41 @@ def test_nothing_can_be_asked_before_anything_was_shown(page: Any, session: Json
     refused = page.ask("POST", f"sessions/{session['id']}/ask", json={"signs": page.signs(session["id"], request, 0)})
     assert refused.status_code == 422
     assert "at least one demonstration" in refused.json()["error"]
+
+
+def test_an_arm_that_is_not_sure_asks_back_and_moves_when_a_person_insists(
+    page: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("signimit_envs.studio.studio.LEAST_CONFIDENCE", 1.1)
+    session = page.teach(page.post("sessions", {"seed": 5}), 3)
+    base = f"sessions/{session['id']}"
+    page.post(f"{base}/table", {})
+    asked = page.post(f"{base}/ask", {"signs": page.signs(session["id"], session["demonstrations"][0]["prompt"], 3)})
+    assert (asked["held"], asked["running"]) == (True, False)
+    assert page.post(f"{base}/answers/0/insist", {})["held"] is False
+    assert page.get(base)["answers"][0]["held"] is False
+    refused = page.ask("POST", f"{base}/answers/0/insist", json={})
+    assert refused.json()["error"] == "answer 1: expected one that the arm has asked back about, found another."
+
+
+def test_movements_have_names_that_stay_with_their_demonstrations(page: Any, session: Json) -> None:
+    session = page.teach(session, 1)
+    base = f"sessions/{session['id']}"
+    assert session["belief"]["names"] == [
+        session["language"]["movements"][session["demonstrations"][0]["prompt"]["movement"]]
+    ]
+    named = page.post(f"{base}/movements/0/name", {"revision": session["revision"], "title": " wave "})
+    assert named["belief"]["names"] == ["wave"]
+    assert "wave" in page.teach(named, 1)["belief"]["names"]
+    missing = page.ask("POST", f"{base}/movements/9/name", json={"revision": 2, "title": "wave"})
+    assert (missing.status_code, missing.json()["error"]) == (404, "There is no such movement.")
+
+
+def test_a_deleted_session_is_gone_for_good(page: Any, session: Json) -> None:
+    page.teach(session, 1)
+    assert page.ask("DELETE", f"sessions/{session['id']}").status_code == 200
+    assert page.ask("GET", f"sessions/{session['id']}").status_code == 404
+    assert session["id"] not in [one["id"] for one in page.get("sessions")["sessions"]]
 
 
 def test_sessions_are_listed_the_newest_first_with_their_titles(page: Any) -> None:

@@ -50,6 +50,16 @@ async def ask(studio: TheStudio, session_id: SessionId, body: Ask) -> Json:
     number = await studio.ask(session, signs_of(body.signs), request)
     studio.changed(session)
     answer = answer_json(session, number, session.history.answers[number], studio.arm.state)
+    return {**answer, "running": not answer["held"]}
+
+
+@routes.post("/api/sessions/{session_id}/answers/{number}/insist")
+async def insist(studio: TheStudio, session_id: SessionId, number: Number) -> Json:
+    """Let the arm do what it has asked back about."""
+    session = await studio.open(session_id)
+    await studio.insist(session, number)
+    studio.changed(session)
+    answer = answer_json(session, number, session.answer(number), studio.arm.state)
     return {**answer, "running": True}
 
 

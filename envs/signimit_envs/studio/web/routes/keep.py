@@ -8,7 +8,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 
-from signimit_envs.studio.page.exports import FORMATS, export_bytes, import_bytes
+from signimit_envs.studio.page.exports import FORMATS, Lesson, export_bytes, import_bytes
 from signimit_envs.studio.page.prompts import FREE, get_language
 from signimit_envs.studio.page.views import session_json
 from signimit_envs.studio.store.events import Demonstrated
@@ -21,10 +21,10 @@ FormatName = StrEnum("FormatName", {name: name for name in FORMATS})  # type: ig
 
 @routes.get("/sessions/{session_id}/export/{name}")
 async def export(studio: TheStudio, session_id: SessionId, name: FormatName) -> Response:
-    """Export the demonstrations."""
+    """Export the demonstrations, or what was learned from them."""
     session = await studio.open(session_id)
-    shown, language = session.history.shown, get_language(session.created.language)
-    content = await asyncio.to_thread(export_bytes, name.value, shown, language)
+    lesson = Lesson(session.history.shown, get_language(session.created.language), session.learned.model)
+    content = await asyncio.to_thread(export_bytes, name.value, lesson)
     headers = {"Content-Disposition": f'attachment; filename="{session.name}-{name.value}"'}
     return Response(content, media_type=FORMATS[name.value].media_type, headers=headers)
 

@@ -48,7 +48,7 @@ async def demonstration_film(studio: TheStudio, session_id: SessionId, number: N
     """Film a demonstration."""
     shown = (await studio.open(session_id)).demonstration(number)
     film = await studio.render(lambda: film_demonstration(shown, number))
-    return _download(film, f"demonstration-{number}.mp4")
+    return _download(film, f"demonstration-{number + 1}.mp4")
 
 
 @routes.get("/answers/{number}/film.mp4")
@@ -60,7 +60,7 @@ async def answer_film(studio: TheStudio, session_id: SessionId, number: Number) 
     if not track:
         raise InvalidInputError("answer", "a second of movement or more", "less")
     film = await studio.render(lambda: film_answer(answer, track))
-    return _download(film, f"answer-{number}.mp4")
+    return _download(film, f"answer-{number + 1}.mp4")
 
 
 def _download(film: bytes, name: str) -> Response:

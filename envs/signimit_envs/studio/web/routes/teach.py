@@ -10,7 +10,7 @@ from fastapi import APIRouter, Query, Response
 
 from signimit.exceptions import InvalidInputError
 from signimit_envs.studio.limits import LIMITS
-from signimit_envs.studio.open_session import OpenSession
+from signimit_envs.studio.open_session import NotFoundError, OpenSession
 from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance
 from signimit_envs.studio.page.prompts import get_language, next_request
 from signimit_envs.studio.page.views import demonstration_json, session_json
@@ -19,6 +19,7 @@ from signimit_envs.studio.store.events import (
     Demonstrated,
     DrawnDemonstration,
     Event,
+    Named,
     Redone,
     Redrawn,
     Titled,
@@ -139,6 +140,23 @@ async def redo(studio: TheStudio, session_id: SessionId, body: Revised) -> Json:
 async def title(studio: TheStudio, session_id: SessionId, body: NewTitle) -> Json:
     """Give the session another title."""
     return await _edited(studio, await studio.open(session_id), body.revision, Titled(body.title.strip()))
+
+
+@routes.delete("/{session_id}")
+async def delete_session(studio: TheStudio, session_id: SessionId) -> Json:
+    """Delete a session, for good."""
+    await studio.delete(await studio.open(session_id))
+    return {}
+
+
+@routes.post("/{session_id}/movements/{number}/name")
+async def name_movement(studio: TheStudio, session_id: SessionId, number: Number, body: NewTitle) -> Json:
+    """Give a movement a name, or take it away."""
+    session = await studio.open(session_id)
+    movements = session.model.movements
+    if number >= len(movements):
+        raise NotFoundError("There is no such movement.")
+    return await _edited(studio, session, body.revision, Named(movements[number].members[0], body.title.strip()))
 
 
 @routes.post("/{session_id}/merge")

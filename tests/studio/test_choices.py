@@ -1,0 +1,44 @@
+"""What a person can choose in the page beside drawing: to delete, to name, and to let an unsure arm move."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+
+def test_a_session_is_deleted_once_it_was_confirmed(visit: Callable[..., Any], new_session: Callable[..., str]) -> None:
+    visitor = visit()
+    gone, kept = new_session(), new_session()
+    visitor.api(f"sessions/{gone}/title", {"revision": 0, "title": "to be deleted"})
+    visitor.open("keep", kept)
+    visitor.page.get_by_role("button", name="Delete to be deleted").click()
+    assert gone in [one["id"] for one in visitor.api("sessions")["sessions"]]
+    visitor.page.get_by_role("button", name="Delete for good: to be deleted").click()
+    visitor.page.get_by_role("button", name="Delete for good: to be deleted").wait_for(state="detached")
+    assert gone not in [one["id"] for one in visitor.api("sessions")["sessions"]]
+
+
+def test_a_movement_is_named_and_an_unsure_arm_waits_for_move_anyway(
+    visit: Callable[..., Any],
+    new_session: Callable[..., str],
+    actor: Callable[[int], Any],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("signimit_envs.studio.studio.LEAST_CONFIDENCE", 1.1)
+    visitor = visit(viewport={"width": 1280, "height": 900})
+    visitor.open("teach", new_session(12))
+    field = visitor.page.get_by_label("Name of movement 1")
+    field.fill("wave")
+    field.press("Enter")
+    visitor.see("#belief", "(wave)")
+    visitor.page.get_by_role("tab", name="Ask").click()
+    visitor.page.locator(".handle").nth(2).wait_for()
+    actor(3).speak(visitor, "ask", {"movement": 1, "focus": 1})
+    visitor.see("#ask-sentence", "Not sure, so the arm waits.")
+    visitor.page.get_by_role("button", name="Move anyway").click()
+    visitor.page.locator("#ask-insist").wait_for(state="hidden")
+    session = visitor.session()
+    assert session["answers"][0]["held"] is False
+    assert session["belief"]["names"][0] == "wave"
