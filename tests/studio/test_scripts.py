@@ -404,8 +404,9 @@ def test_what_is_suspected_can_be_redrawn_where_it_is_doubted(call: Call) -> Non
 
 def test_a_belief_is_said_with_its_probability(call: Call) -> None:
     belief = {"labels": [2, 0, -1], "focus": [1, 0, -1], "focus_probability": [[0.029, 0.971], [1, 0], [0.5, 0.5]]}
+    belief |= {"names": ["", "", "wave"]}
     say = "({ beliefSentence }, belief) => [0, 1, 2].map((n) => beliefSentence(belief, n))"
-    told = ["Movement 3 about the green object, 97 %", "Movement 1 about the red object, 100 %"]
+    told = ["Movement 3 (wave) about the green object, 97 %", "Movement 1 about the red object, 100 %"]
     assert call("pictures", say, belief) == [*told, "None of the movements that the others show"]
 
 
