@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 
@@ -42,3 +43,22 @@ def test_a_movement_is_named_and_an_unsure_arm_waits_for_move_anyway(
     session = visitor.session()
     assert session["answers"][0]["held"] is False
     assert session["belief"]["names"][0] == "wave"
+
+
+def test_what_is_missing_is_said_and_a_second_sign_of_two_strokes_is_one_question(
+    visit: Callable[..., Any], new_session: Callable[..., str]
+) -> None:
+    visitor = visit(viewport={"width": 1280, "height": 900})
+    visitor.open("teach", new_session(12))
+    visitor.see("#teach-missing", "Still to draw: the first sign, the second sign and the movement.")
+    line = np.array([[0.0, 0.0], [0.5, 1.0], [1.0, 0.0], [1.0, 1.0]])
+    visitor.sign("teach", 1, line)
+    visitor.see("#teach-missing", "Still to draw: the second sign and the movement.")
+    visitor.page.get_by_role("button", name="Ask the arm now").click()
+    visitor.see("#ask-taught", "Signs that were taught")
+    visitor.page.locator(".handle").nth(2).wait_for()
+    for number in (1, 2, 2):
+        visitor.sign("ask", number, line)
+    visitor.see("#ask-answers", "1. Movement")
+    visitor.page.wait_for_timeout(800)  # longer than a lifted pen is waited for
+    assert len(visitor.session()["answers"]) == 1

@@ -7,7 +7,9 @@ import { SignPad, fitted } from "./pad.js";
 import { thumbPicture } from "./pictures.js";
 import { QUESTION } from "./draft.js";
 import { accept, inBackground, objectName, path, people, refresh, store, subscribe } from "./store.js";
+import { taughtSigns } from "./taught.js";
 
+const LIFT = 700; // ms after which a lifted pen has ended the second sign
 const INVITATION = "Draw two signs; the arm answers as the second one is done.";
 const UNTAUGHT = "The robot has not been taught anything yet. Demonstrate something first, in Teach.";
 
@@ -46,11 +48,13 @@ export class Ask {
     const other = before?.id !== session.id;
     if (other) {
       this.asked = null;
+      clearTimeout(this.lifted);
       this.pads.forEach((pad) => pad.clear(false));
       if (before && store.view === "ask") attempt(() => this.takeTable());
     }
     this.takeUp(session.draft.drawn[QUESTION] ?? [], other ? [] : (before.draft.drawn[QUESTION] ?? []));
     this.tell();
+    this.showTaught(before);
     this.showPeople(before);
     this.showAnswers();
   }
@@ -89,14 +93,17 @@ export class Ask {
 
   /** A person puts the pen down: a first sign after an answer begins another utterance. */
   started(number) {
+    clearTimeout(this.lifted);
     this.request = null;
     if (number === 1 && this.pads[1].stroke) this.pads[1].clear(false);
   }
 
+  /** A sign is drawn or cleared; the second one may have another stroke, so it is awaited before the arm is asked. */
   signed(number, byHand) {
+    if (byHand) clearTimeout(this.lifted);
     if (byHand && number === 1) this.keep(this.pads[0].parts);
     if (!byHand || number !== 2 || !this.pads.every((pad) => pad.stroke)) return;
-    this.ask();
+    this.lifted = setTimeout(() => this.ask(), LIFT);
   }
 
   async ask() {
@@ -204,6 +211,13 @@ export class Ask {
     const { number, verdict } = store.session.answers[this.asked.number] ?? this.asked;
     const wanted = { good: verdict === good ? null : good };
     return attempt(async () => accept(await api.post(path(`answers/${number}/verdict`), wanted)));
+  }
+
+  showTaught(before) {
+    if (before?.id === store.session.id && before.revision === store.session.revision) return;
+    const shown = taughtSigns(store.session.belief);
+    byId("ask-taught").hidden = !shown.length;
+    byId("ask-taught").replaceChildren(...shown);
   }
 
   showPeople(before) {

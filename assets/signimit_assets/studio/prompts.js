@@ -23,6 +23,14 @@ export function counted(session, old) {
   return prompt && next > 1 ? `Demonstration ${next} · all were shown, more are welcome` : `Demonstration ${next}`;
 }
 
+/** Say what is still to be drawn before it can be taught; nothing if nothing is. */
+export function missing(signs, hand) {
+  const names = ["the first sign", "the second sign", "the movement"];
+  const left = names.filter((_, i) => !(i < 2 ? signs[i] : hand));
+  const last = left.pop();
+  return last ? `Still to draw: ${left.length ? `${left.join(", ")} and ` : ""}${last}.` : "";
+}
+
 /** Say which demonstration is played, and what it was to be. */
 export function shownTexts({ demonstrations, language }, number) {
   const { prompt, by } = demonstrations[number];

@@ -6,7 +6,7 @@ import { announce, attempt, button, byId, clearError, make, showError } from "./
 import { Draft, HAND, SIGNS } from "./draft.js";
 import { SignPad, fitted } from "./pad.js";
 import { BUILT_IN, Roles } from "./people.js";
-import { counted, examples, sentence, shownTexts } from "./prompts.js";
+import { counted, examples, missing, sentence, shownTexts } from "./prompts.js";
 import { change, demonstration, path, people, refresh, store, subscribe } from "./store.js";
 import { TeachTable } from "./teachtable.js";
 
@@ -116,6 +116,7 @@ export class Teach {
     const { session } = store;
     if (this.showing) {
       this.teachIt.disabled = true;
+      byId("teach-missing").textContent = "";
       byId("teach-examples").replaceChildren();
       [byId("teach-count").textContent, byId("teach-prompt").textContent] = shownTexts(session, this.showing - 1);
       return;
@@ -123,13 +124,17 @@ export class Teach {
     const old = this.draft.number;
     const ready = this.pads.every((pad) => pad.stroke) && this.table.hand !== null;
     this.teachIt.disabled = !ready || this.busy;
+    byId("teach-missing").textContent = missing(this.pads.map((pad) => pad.stroke), this.table.hand);
     this.teachIt.textContent = this.busy ? "Learning…" : old === null ? "Teach this" : `Save demonstration ${old + 1}`;
     this.back.hidden = old === null;
     byId("teach-count").textContent = counted(session, old);
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
     byId("teach-prompt").textContent = sentence(session, prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
-    byId("teach-choices").replaceChildren(...(this.wish ? [button("Back to the list", () => this.follow(null))] : []));
+    const all = old === null && session.next.prompt && session.next.left === 0;
+    const choices = this.wish ? [button("Back to the list", () => this.follow(null))] : [];
+    if (all) choices.push(button("Ask the arm now", () => byId("tab-ask").click(), { id: "go-ask" }));
+    byId("teach-choices").replaceChildren(...choices);
   }
 
   /** Demonstrate what the robot would like to see. */
