@@ -62,3 +62,29 @@ def test_what_is_missing_is_said_and_a_second_sign_of_two_strokes_is_one_questio
     visitor.see("#ask-answers", "1. Movement")
     visitor.page.wait_for_timeout(800)  # longer than a lifted pen is waited for
     assert len(visitor.session()["answers"]) == 1
+
+
+def test_a_wrong_answer_leads_to_a_demonstration_of_what_was_meant(
+    visit: Callable[..., Any], new_session: Callable[..., str], actor: Callable[[int], Any]
+) -> None:
+    visitor, person = visit(viewport={"width": 1280, "height": 900}), actor(6)
+    visitor.open("ask", new_session(6))
+    visitor.page.locator(".handle").nth(2).wait_for()
+    person.speak(visitor, "ask", {"movement": 1, "focus": 1})
+    visitor.see("#ask-answers", "1. Movement")
+    visitor.page.get_by_role("button", name="Wrong").click()
+    visitor.page.get_by_role("button", name="Show what I meant").click()
+    visitor.see("#teach-missing", "Still to draw: the movement.")
+    visitor.see("#teach-prompt", "you asked for something else")
+    session = visitor.session()
+    visitor.hand(
+        np.add(session["next"]["scene"]["hand"], 0.05 * np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]])), 0.2
+    )
+    visitor.page.locator("#teach-it").click()
+    visitor.see("#teach-count", "Demonstration 8")
+    taught, asked = (visitor.api(f"sessions/{session['id']}/{what}") for what in ("demonstrations/6", "answers/0"))
+    assert visitor.session()["demonstrations"][6]["prompt"] is None
+    for one, other in zip(taught["signs"], asked["signs"], strict=True):
+        shapes = [np.array(sign["points"]) - np.mean(sign["points"], axis=0) for sign in (one, other)]
+        first, second = (shape / np.ptp(shape, axis=0).max() for shape in shapes)
+        np.testing.assert_allclose(first, second, atol=0.01)

@@ -23,10 +23,12 @@ export class Ask {
   /**
    * @param {LiveTable} live
    * @param {function} replay called with the number of an answer
+   * @param {function} correct called with the signs of an answer that was wrong
    * @param {function} keep called with the strokes of a first sign, so that they are not lost
    */
-  constructor(live, replay, keep) {
+  constructor(live, replay, correct, keep) {
     this.replay = replay;
+    this.correct = correct;
     this.keep = keep;
     this.request = null;
     this.asked = null;
@@ -149,6 +151,11 @@ export class Ask {
     });
   }
 
+  /** Lead on from a wrong answer: its signs become a demonstration of what was meant. */
+  meant(number) {
+    return attempt(async () => this.correct((await api.get(path(`answers/${number}`))).signs));
+  }
+
   framed(header) {
     const strange = header.session !== null && header.session !== store.session?.id;
     const done = strange ? null : header.done;
@@ -181,6 +188,7 @@ export class Ask {
     const sentence = answer ? understood(answer, done) : taught ? INVITATION : UNTAUGHT;
     byId("ask-insist").hidden = !answer?.held;
     byId("ask-again").hidden = !done;
+    byId("ask-meant").hidden = answer?.verdict !== false;
     const host = byId("ask-sentence");
     if (host.textContent !== sentence) host.textContent = sentence;
     this.showVerdict(answer);
@@ -202,6 +210,7 @@ export class Ask {
     byId("ask-choices").append(
       button("Move anyway", () => this.insist(), { className: "main", id: "ask-insist", hidden: true }),
       button("Do it again", () => this.repeat(), { id: "ask-again", hidden: true }),
+      button("Show what I meant", () => this.meant(this.asked.number), { id: "ask-meant", hidden: true }),
     );
     byId("ask-verdict").append(...this.thumbs.map(([, made]) => made));
   }
@@ -257,6 +266,9 @@ export class Ask {
         "li",
         {},
         make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${waits} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
+        answer.verdict === false
+          ? button("What was meant", () => this.meant(answer.number), { className: "plain", "aria-label": `Show what was meant in answer ${answer.number + 1}` })
+          : null,
         button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number + 1}` }),
       );
     });

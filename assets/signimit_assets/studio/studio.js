@@ -32,7 +32,8 @@ async function begin() {
   });
   views.teach = new Teach((number) => replay(`demonstrations/${number}`));
   views.look = new Look();
-  views.ask = new Ask(live, (number) => replay(`answers/${number}`), (strokes) => views.teach.draft.keep({ [QUESTION]: strokes }));
+  const keep = (strokes) => views.teach.draft.keep({ [QUESTION]: strokes });
+  views.ask = new Ask(live, (number) => replay(`answers/${number}`), correct, keep);
   views.keep = new Keep(() => show("teach"));
   subscribe(header);
   startTabs();
@@ -110,6 +111,11 @@ function startTabs() {
       byId(`tab-${next}`).focus();
     });
   }
+}
+
+function correct(signs) {
+  choose("teach");
+  views.teach.correct(signs);
 }
 
 function replay(what) {

@@ -10,6 +10,7 @@ import { counted, examples, missing, sentence, shownTexts } from "./prompts.js";
 import { change, demonstration, path, people, refresh, store, subscribe } from "./store.js";
 import { TeachTable } from "./teachtable.js";
 
+const MEANT = "With these two signs you asked for something else. Draw the movement that you meant, about the object that you meant.";
 const SHOW_SPEED = 4; // times as fast as it was drawn
 
 export class Teach {
@@ -144,6 +145,17 @@ export class Teach {
     if (wish) this.roles.mine();
     this.tell();
     byId("teach-prompt").scrollIntoView({ block: "nearest" });
+  }
+
+  /** Demonstrate what two signs were to ask for, when the arm did something else. */
+  correct(signs) {
+    this.begin();
+    this.follow({ text: MEANT });
+    const strokes = signs.map(fitted);
+    this.pads.forEach((pad, i) => pad.put([strokes[i]]));
+    this.mine = true;
+    this.draft.keep(Object.fromEntries(SIGNS.map((place, i) => [place, [strokes[i]]])));
+    this.tell();
   }
 
   async submit() {
