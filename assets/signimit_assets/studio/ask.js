@@ -267,7 +267,7 @@ export class Ask {
         {},
         make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${waits} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
         answer.verdict === false
-          ? button("What was meant", () => this.meant(answer.number), { className: "plain", "aria-label": `Show what was meant in answer ${answer.number + 1}` })
+          ? button("Correct", () => this.meant(answer.number), { className: "plain", "aria-label": `Correct answer ${answer.number + 1}` })
           : null,
         button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number + 1}` }),
       );

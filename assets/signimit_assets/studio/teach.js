@@ -132,7 +132,7 @@ export class Teach {
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
     byId("teach-prompt").textContent = sentence(session, prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
-    const all = old === null && session.next.prompt && session.next.left === 0;
+    const all = old === null && !this.wish && session.next.prompt && session.next.left === 0;
     const choices = this.wish ? [button("Back to the list", () => this.follow(null))] : [];
     if (all) choices.push(button("Ask the arm now", () => byId("tab-ask").click(), { id: "go-ask" }));
     byId("teach-choices").replaceChildren(...choices);
