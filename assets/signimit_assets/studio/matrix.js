@@ -27,6 +27,7 @@ export class Matrix {
     this.canvas.addEventListener("pointerleave", () => this.choose(null));
     this.canvas.addEventListener("keydown", (event) => this.key(event));
     new ResizeObserver(() => this.paint()).observe(this.canvas);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
   }
 
   /** Fetch the matrices of the session; there are none of fewer than two demonstrations. */
@@ -80,6 +81,7 @@ export class Matrix {
         pen.fillRect(column * step, row * step, Math.ceil(step), Math.ceil(step));
       }),
     );
+    nameRows(pen, order, step, getComputedStyle(this.canvas).color);
     pen.fillStyle = "#fff";
     for (let i = 1; i < order.length; i += 1) {
       if (labels[order[i]] === labels[order[i - 1]]) continue;
@@ -108,7 +110,7 @@ export class Matrix {
   choose(cell) {
     this.cell = cell;
     this.paint();
-    this.told.textContent = cell ? this.describe(cell) : "Point at a cell, or go there with the arrow keys.";
+    this.told.textContent = cell ? this.describe(cell) : "The diagonal has the demonstrations' numbers. Point at a cell, or go there with the arrow keys.";
   }
 
   describe([row, column]) {
@@ -122,6 +124,14 @@ export class Matrix {
 }
 
 const frameName = (i, j) => `${objectName(i)} in the row's, ${objectName(j)} in the column's`;
+
+/** Write each demonstration's number, from 1, where its row meets its column. */
+function nameRows(pen, order, step, ink) {
+  pen.fillStyle = ink;
+  pen.font = `600 ${Math.min(0.5 * step, 16 * devicePixelRatio)}px system-ui, sans-serif`;
+  [pen.textAlign, pen.textBaseline] = ["center", "middle"];
+  order.forEach((t, i) => pen.fillText(String(t + 1), (i + 0.5) * step, (i + 0.5) * step));
+}
 
 function outline(pen, [row, column], step) {
   pen.lineWidth = 3;
