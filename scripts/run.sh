@@ -3,6 +3,7 @@
 #
 #   sh scripts/run.sh reproduce [options]    the main job; any other scripts/NAME.py goes by its name too, with _ or -
 #   sh scripts/run.sh test [pytest options]  the tests, in two processes; -m 'not slow' is a quick run of most
+#   sh scripts/run.sh docs [sphinx options]  the site, into out/site: runs its tutorials and the examples of the reference
 #
 # PYTHON chooses the interpreter (3.11 or newer), e.g. PYTHON=python3.12 sh scripts/run.sh test
 set -eu
@@ -114,6 +115,7 @@ extras_for() {
         study) printf 'scripts,strokes,study,dask' ;;
         studio) printf 'studio' ;;
         formats) printf 'scripts,strokes,minari,lerobot' ;;
+        docs) printf 'docs' ;;
         test) printf 'scripts,strokes,study,studio,minari,lerobot,dask,test' ;;
     esac
 }
@@ -163,9 +165,19 @@ show_help() {
     exec "$python" "$root/envs/signimit_envs/cli/plain_help.py" "$what" "$@"
 }
 
-usage() { sed -n '2,/^set/s/^# \{0,1\}//p' "$root/scripts/run.sh"; printf 'NAME is one of: test%s\n' "$(programs)"; }
+sphinx() { "$venv/bin/python" -m sphinx --fail-on-warning --keep-going --jobs auto --doctree-dir out/site-cache "$@"; }
 
-[ $# -gt 0 ] || fail "say what to run: sh scripts/run.sh NAME [options], NAME one of: test$(programs)"
+# Makes the site, and then runs the examples of the reference; what Sphinx has read for one it knows for the other.
+build_site() {
+    cd "$root"
+    sphinx -b html "$@" docs out/site
+    sphinx -q -b doctest docs out/site-cache/doctest
+    say "the site is in out/site, its first page is out/site/index.html"
+}
+
+usage() { sed -n '2,/^set/s/^# \{0,1\}//p' "$root/scripts/run.sh"; printf 'NAME is one of: test docs%s\n' "$(programs)"; }
+
+[ $# -gt 0 ] || fail "say what to run: sh scripts/run.sh NAME [options], NAME one of: test docs$(programs)"
 what=$1
 shift
 case $what in -h | --help) usage; exit 0 ;; esac
@@ -181,9 +193,18 @@ if [ "$what" = test ]; then
     cd "$root"
     exec "$venv/bin/python" -m pytest -n auto "$@" # two processes, see tests/conftest.py; -n 0: one
 fi
+if [ "$what" = docs ]; then
+    if [ -n "$help" ]; then
+        usage
+    else
+        ensure_environment docs
+        build_site "$@"
+    fi
+    exit 0
+fi
 what=$(printf '%s' "$what" | tr - _)
-case $what in */* | _* | '') fail "there is no program '$what'; there are: test$(programs)" ;; esac
-[ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test$(programs)"
+case $what in */* | _* | '') fail "there is no program '$what'; there are: test docs$(programs)" ;; esac
+[ -f "$root/scripts/$what.py" ] || fail "there is no program '$what'; there are: test docs$(programs)"
 [ -z "$help" ] || show_help "$@"
 ensure_environment "$(purpose_of "$what" "${1-}")"
 exec "$venv/bin/python" "$root/scripts/$what.py" "$@"

@@ -77,7 +77,7 @@ class Calibration(NamedTuple):
         confidence: Mean confidence of each bin that is not empty.
         accuracy: Share that was right in it.
         counts: How many commands it has.
-        error: Expected calibration error: mean |confidence - accuracy|, weighted by counts.
+        error: Expected calibration error: mean ``|confidence - accuracy|``, weighted by counts.
         coverage: Share of commands obeyed when those of lower confidence are declined, ascending.
         risk: Share of wrong ones among the obeyed, at each coverage.
     """

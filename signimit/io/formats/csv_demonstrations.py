@@ -1,12 +1,12 @@
 """Demonstrations as three CSV tables in a folder.
 
-=============== ============================================ ======================================================
-table           columns                                      a line is
-=============== ============================================ ======================================================
+=============== ============================================= ======================================================
+table           columns                                       a line is
+=============== ============================================= ======================================================
 ``hands.csv``   demonstration,sample,time_s,hand_x_m,hand_y_m where the hand was at a time, table frame
-``objects.csv`` demonstration,object,x_m,y_m                 where an object is, table frame
-``signs.csv``   demonstration,sign,sample,x_any,y_any        a point of a sign, in the unit in which it was drawn
-=============== ============================================ ======================================================
+``objects.csv`` demonstration,object,x_m,y_m                  where an object is, table frame
+``signs.csv``   demonstration,sign,sample,x_any,y_any         a point of a sign, in the unit in which it was drawn
+=============== ============================================= ======================================================
 
 Everything is counted from 0 and comes in the order of its numbers.
 """

@@ -19,7 +19,7 @@ _ROUNDING = 1e-12  # in the unknowns' unit; by so much a solution on a face may 
 
 
 class LeastSquares(NamedTuple):
-    """B problems of n unknowns x: minimise |J x - d|² + λ |x - p|² for lower <= x <= upper.
+    """B problems of n unknowns x: minimise ``|J x - d|² + λ |x - p|²`` for lower <= x <= upper.
 
     Attributes:
         jacobian: J, shape (2, n, B).
