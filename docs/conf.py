@@ -65,6 +65,7 @@ sphinx_gallery_conf = {
     "reset_modules": ("tutorials.reset",),
     "reset_modules_order": "both",
     "capture_repr": ("_repr_html_", "__repr__"),
+    "ignore_repr_types": r"matplotlib|'list'",
     "doc_module": ("signimit", "signimit_envs"),
     "reference_url": {"signimit": None, "signimit_envs": None},
     "backreferences_dir": "tutorials/uses",
