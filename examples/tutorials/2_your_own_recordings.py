@@ -77,8 +77,7 @@ except FileFormatError as error:
 # Look at them
 # ------------
 #
-# The first sign is above the second; below, each hand is seen from the first object and from the second. Which view is
-# the right one is what has to be found out.
+# The first four: hands black, the two objects red and green. Which object each was about is what has to be found out.
 import matplotlib.pyplot as plt
 
 figure, axes = plt.subplots(1, 4, figsize=(11, 3), layout="constrained")
