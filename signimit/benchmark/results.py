@@ -8,6 +8,7 @@ they are.
 from __future__ import annotations
 
 import hashlib
+import importlib
 import json
 import platform
 from collections.abc import Iterable, Iterator, Sequence
@@ -20,7 +21,7 @@ from typing import Any, NamedTuple
 from signimit.benchmark.entries import EntrantReference, get_entrant
 from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.protocol import Oracle
-from signimit.benchmark.running import Engine, SessionTask, code_hash
+from signimit.benchmark.running import Engine, SessionTask, code_hash, hash_modules
 from signimit.benchmark.schema import check_record, check_summary
 from signimit.benchmark.scoring import WORST
 from signimit.benchmark.shipped_sessions import split_hash
@@ -31,6 +32,7 @@ from signimit.io.safe_files import Record, append_record, read_records, replaced
 
 FORMAT, VERSION = "signimit benchmark results", 1
 PACKAGES = ("signimit", "numpy", "scipy", "scikit-learn", "torch")  # that a result may depend on
+EARLIER = "earlier"  # folder in a folder of results: rows of learners that are gone, shown and not run again
 Summary = dict[str, Any]
 
 
@@ -62,7 +64,7 @@ class ResultFile(NamedTuple):
             "format": FORMAT,
             "version": VERSION,
             "entry": self.entrant.name,
-            "source": hashlib.sha256(self.entrant.source.encode()).hexdigest() if self.entrant.source else None,
+            "source": source_hash(self.entrant),
             "code": code_hash(),
             "splits": {name: split_hash(name) for name in SPLITS},
         }
@@ -77,6 +79,8 @@ class ResultFile(NamedTuple):
         if not lines:
             return []
         wanted, found = self.header, lines[0]
+        if isinstance(met := found.get("splits"), dict):  # those that were there then; later ones change nothing
+            wanted["splits"] = {name: wanted["splits"].get(name) for name in met}
         for key, value in wanted.items():
             if found.get(key) != value:
                 expected = f"{key} {_short(value)}; give another --out, or move the file away"
@@ -94,6 +98,14 @@ class ResultFile(NamedTuple):
     def append(self, record: Record) -> None:
         """Append the record of a session."""
         append_record(self.records, record)
+
+
+def source_hash(entrant: EntrantReference) -> str | None:
+    """Return the SHA-256 of an entry's own code: its file, or the package of its module; None if that is signimit."""
+    if entrant.source:
+        return hashlib.sha256(entrant.source.encode()).hexdigest()
+    package = entrant.name.rpartition(":")[0].partition(".")[0]
+    return hash_modules(importlib.import_module(package)) if package not in ("", "signimit") else None
 
 
 def run_missing(file: ResultFile, splits: Sequence[str], seeds: Iterable[int], engine: Engine) -> Iterator[Record]:
@@ -201,15 +213,19 @@ def write_summary(file: ResultFile) -> Summary:
 
 
 def read_summaries(folder: Path) -> list[Summary]:
-    """Read all summaries of a folder.
+    """Read all summaries of a folder, and of `EARLIER` in it.
 
     Raises:
         FileFormatError: If one is not a whole summary of this version.
     """
-    summaries = [_read_summary(path) for path in sorted(folder.glob("*.json"))]
-    if not summaries:
+    return [_read_summary(path) for path in _summary_paths(folder)]
+
+
+def _summary_paths(folder: Path) -> list[Path]:
+    paths = [*sorted(folder.glob("*.json")), *sorted((folder / EARLIER).glob("*.json"))]
+    if not paths:
         raise FileFormatError(str(folder), "results; `benchmark run` makes them", "none")
-    return summaries
+    return paths
 
 
 def read_comparable_summaries(folder: Path) -> list[Summary]:
@@ -220,8 +236,9 @@ def read_comparable_summaries(folder: Path) -> list[Summary]:
             sessions than the one that has most of a split.
     """
     summaries = read_summaries(folder)
-    for summary, path in zip(summaries, sorted(folder.glob("*.json")), strict=True):
-        again = f"move it and its .jsonl away, then `benchmark run --entry {summary['entry']} --out {folder}` runs it"
+    for summary, path in zip(summaries, _summary_paths(folder), strict=True):
+        run = f"benchmark run --entry {summary['entry']} --out {path.parent}"
+        again = f"move it and its .jsonl away, then `{run}` runs it"
         if summary.get("judge") != judge_hash():
             found = f"judge {summary['judge']}" if "judge" in summary else "none, as in version 0.1.0"
             raise FileFormatError(str(path), f"a row of judge {judge_hash()} ({again} again)", found)

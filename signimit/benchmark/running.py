@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from functools import cache
 from itertools import islice
 from pathlib import Path
+from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,6 +34,7 @@ from signimit.exceptions import InvalidInputError
 from signimit.io.safe_files import Record
 from signimit.learners.base import Understanding
 from signimit.policies import CONTROL_PERIOD, run_policy
+from signimit.teaching.composition import GroundTruth
 from signimit.teaching.sessions import Command, Session
 
 WAITING = 2  # batches a worker that wait or run: enough that none idles, few enough for millions of tasks
@@ -81,7 +83,7 @@ def run_task(task: SessionTask) -> Record:
         answers = _score_commands(entry, extended, session.truth.templates, understanding)
     inferences = {}
     if understanding is not None:
-        verdict = judge_inference(understanding, extended.truth)
+        verdict = judge_inference(*_of_sound(understanding, extended.truth))
         focus = verdict.foci_right.count / verdict.foci_right.total
         inferences = {"groups": verdict.rand_index, "focus": focus, "order": float(verdict.word_order)}
     times = {"compose": composed - began, "observe": observed - composed, "act": time.thread_time() - observed}
@@ -109,6 +111,14 @@ def _blaming(where: str) -> Iterator[None]:
         raise
 
 
+def _of_sound(understanding: Understanding, truth: GroundTruth) -> tuple[Understanding, GroundTruth]:
+    """Keep what is inferred and true of the demonstrations that do what their words ask for."""
+    sound = np.flatnonzero(truth.sound)
+    return understanding._replace(labels=understanding.labels[sound], focus=understanding.focus[sound]), truth.select(
+        sound
+    )
+
+
 def make_entry(entrant: Entrant | Oracle, session: Session) -> Entry:
     """Make the entry of a session; only an oracle is told the truth."""
     kit = Kit(tuple(p.points for p in session.prototypes), entry_stream(session))
@@ -131,7 +141,7 @@ def _score_commands(
         misfit.append(done.misfit)
         reading = getattr(entry, "reading", None)
         if reading is not None and understanding is not None:
-            read.append(count_signs_read(reading, understanding, session.truth, command.request))
+            read.append(count_signs_read(reading, *_of_sound(understanding, session.truth), command.request))
     scores: dict[str, list[Any]] = {"obeyed": obeyed, "misfit": misfit}
     if len(read) == len(obeyed):
         scores["read"] = read
@@ -176,10 +186,17 @@ def _check_velocity(given: Any, step: int) -> NDArray[np.float64]:
 @cache
 def code_hash() -> str:
     """Return a short SHA-256 of all modules of signimit, the same wherever and however it is installed."""
-    folder, sha = Path(signimit.__file__).parent, hashlib.sha256()
-    for path in sorted(folder.rglob("*.py"), key=lambda p: p.relative_to(folder).as_posix()):
+    return hash_modules(signimit)[:16]
+
+
+def hash_modules(package: ModuleType) -> str:
+    """Return the SHA-256 of all modules of a package, or of a module alone, the same wherever it is installed."""
+    file = Path(str(package.__file__))
+    folder, sha = file.parent, hashlib.sha256()
+    modules = folder.rglob("*.py") if hasattr(package, "__path__") else [file]
+    for path in sorted(modules, key=lambda p: p.relative_to(folder).as_posix()):
         sha.update(path.relative_to(folder).as_posix().encode() + b"\0" + path.read_bytes().replace(b"\r\n", b"\n"))
-    return sha.hexdigest()[:16]
+    return sha.hexdigest()
 
 
 def run_batch(tasks: list[SessionTask]) -> list[Record]:

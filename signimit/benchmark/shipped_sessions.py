@@ -102,7 +102,7 @@ def freeze(folder: str | os.PathLike[str]) -> None:
 
 
 def encode_sessions(sessions: Sequence[Session]) -> Arrays:
-    """Turn sessions of one split into arrays; all have as many demonstrations and commands."""
+    """Turn sessions of one split into arrays; all have as many demonstrations, spoilt ones and commands."""
     hands = [d.hand for s in sessions for d in s.demonstrations]
     shown = [sign for s in sessions for d in s.demonstrations for sign in d.signs]
     asked = [sign for s in sessions for c in s.commands for sign in c.signs]
@@ -115,6 +115,8 @@ def encode_sessions(sessions: Sequence[Session]) -> Arrays:
     arrays["asked_objects"] = _whole([[c.objects for c in s.commands] for s in sessions])
     arrays["asked_hands"] = _whole([[c.hand for c in s.commands] for s in sessions])
     arrays["meant"] = np.array([s.truth.requests for s in sessions], dtype=np.int8)
+    if any(len(s.truth.spoilt) for s in sessions):
+        arrays["spoilt"] = np.array([s.truth.spoilt for s in sessions], dtype=np.int16)
     arrays["requests"] = np.array([[c.request for c in s.commands] for s in sessions], dtype=np.int8)
     arrays["families"] = np.array([[c.family for c in s.commands] for s in sessions], dtype=np.int8)
     return arrays
@@ -135,9 +137,10 @@ def decode_sessions(split: Condition, arrays: Mapping[str, NDArray[Any]]) -> tup
             demonstrations.append(Demonstration(utterance, objects, hand, sample_times(len(hand))))
 
         meant = arrays["meant"][number].astype(np.int64)
+        spoilt = arrays["spoilt"][number].astype(np.int64) if "spoilt" in arrays else np.zeros(0, dtype=np.int64)
         templates: list[list[Points]] = [[] for _ in language.movements]
         for shown_once, (movement, focus), bounds in zip(demonstrations, meant, arrays["loops"][number], strict=True):
-            templates[movement] += [shown_once.hand[a:b] - shown_once.objects[focus] for a, b in bounds]
+            templates[movement] += [shown_once.hand[a:b] - shown_once.objects[focus] for a, b in bounds if a < b]
 
         commands = [
             Command(
@@ -161,7 +164,7 @@ def decode_sessions(split: Condition, arrays: Mapping[str, NDArray[Any]]) -> tup
                 prototypes=tuple(
                     Stroke(points, np.arange(len(points), dtype=np.float64) * SAMPLE_TIME) for points in signs
                 ),
-                truth=GroundTruth(language, meant[:, 0], meant[:, 1], tuple(map(tuple, templates))),
+                truth=GroundTruth(language, meant[:, 0], meant[:, 1], tuple(map(tuple, templates)), spoilt),
                 commands=tuple(commands),
             )
         )
@@ -178,15 +181,22 @@ def digest(arrays: Mapping[str, NDArray[Any]]) -> str:
 
 
 def _loop_bounds(session: Session) -> list[list[tuple[int, int]]]:
-    """Find where in each hand path the drawings to judge by are."""
-    unplaced = [list(drawings) for drawings in session.truth.templates]
-    bounds = []
-    for demonstration, (movement, focus) in zip(session.demonstrations, session.truth.requests, strict=True):
-        found, origin = [], demonstration.objects[focus]
-        while unplaced[movement] and (start := _place_of(unplaced[movement][0] + origin, demonstration.hand)) >= 0:
-            loop = unplaced[movement].pop(0)
-            found.append((start, start + len(loop)))
-        bounds.append(found)
+    """Find where in each hand path the drawings to judge by are; in one that is spoilt none is, from 0 to 0."""
+    truth, bounds = session.truth, []
+    unplaced = [list(drawings) for drawings in truth.templates]
+    for demonstration, (movement, focus), sound in zip(
+        session.demonstrations, truth.requests, truth.sound, strict=True
+    ):
+        found, left = [], []
+        for loop in unplaced[movement] if sound else ():
+            start = _place_of(loop + demonstration.objects[focus], demonstration.hand)
+            if start < 0:
+                left.append(loop)
+            else:
+                found.append((start, start + len(loop)))
+        if sound:
+            unplaced[movement] = left
+        bounds.append(found or [(0, 0)] * truth.language.rounds)
     return bounds
 
 

@@ -1,10 +1,15 @@
-"""The splits of the benchmark: conditions that differ from the paper's in one thing; a seed means the same people."""
+"""The splits of the benchmark: conditions that differ from the paper's; a seed means the same people.
+
+In the first twelve one thing is another than in the paper's, and everybody does what the words ask for. In the others
+people are as they are: they draw once, go home, err, scribble, have two signs for one thing, or are all strangers.
+"""
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +17,13 @@ from numpy.typing import NDArray
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import UnknownNameError
 from signimit.teaching.composition import GroundTruth, compose_demonstrations, compose_utterance
+from signimit.teaching.imperfections import answer_wrongly, draw_beside_the_point, go_home
 from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
-from signimit.teaching.people.choosing import another_style, strangers, wavering_people
+from signimit.teaching.people import SIGN_LABELS
+from signimit.teaching.people.choosing import another_style, clumsy_strangers, same_people, strangers, wavering_people
 from signimit.teaching.scenes import sample_scene
 from signimit.teaching.sessions import Asker, Command, Condition, Session, ask_at_random, compose_session
+from signimit.teaching.stroke_sampler import as_source
 
 FOCUS_SIGNS = ("1", "2", "3", "0", "6", "5")
 MOVEMENT_SIGNS = ("4", "5", "6", "0", "7", "8", "9", "2")  # the same digit may mean different things as another word
@@ -23,6 +31,9 @@ FILLER_SIGNS = ("7", "8", "9")
 SYNTHETIC_MOVEMENTS = (
     "triangle up", "triangle down", "circle", "square", "star", "figure eight", "zigzag", "spiral",
 )  # fmt: skip
+OPEN_STROKES = ("zigzag", "spiral", "7")  # what ends elsewhere than it began
+OTHER_SHAPES = ("square", "star")  # that mean nothing
+SECOND_SIGNS = tuple(zip(FOCUS_SIGNS[:3], FILLER_SIGNS, strict=True))  # of each object
 CROWDED = 0.25  # times the usual distances between objects
 PER_UNSEEN_PAIR = 3  # commands
 FAMILIES = 3  # counterfactual ones of a session
@@ -89,6 +100,7 @@ def _ask_family(asker: Asker, family: int) -> list[Command]:
 
 _LARGE = Language(focus_signs=FOCUS_SIGNS, movement_signs=MOVEMENT_SIGNS, movements=SYNTHETIC_MOVEMENTS, repetitions=1)
 _NOT_SHOWN = tuple(pair for pair in _LARGE.requests if sum(pair) % 3)
+_DRAWN_ONCE = replace(PAPER_LANGUAGE, rounds=1)
 _ALL = (
     Condition(name="paper", change="nothing: six of nine pairs shown twice, all nine asked for"),
     Condition(name="unseen-pair", change="only the pairs that were never shown are asked for", ask=ask_unseen_pairs),
@@ -136,6 +148,64 @@ _ALL = (
         change="asked in families: a command, one sign changed, the other one changed, the objects permuted",
         ask=ask_counterfactually,
     ),
+    Condition(name="once", change="every movement is drawn once, not twice", language=_DRAWN_ONCE),
+    Condition(
+        name="open-once",
+        change="the movements are open strokes, a zigzag, a spiral and a seven, drawn once",
+        language=replace(_DRAWN_ONCE, movements=OPEN_STROKES),
+    ),
+    Condition(name="retreat", change="the hand goes home after drawing", imperfections=(go_home,)),
+    Condition(
+        name="wrong-2",
+        change="2 of 12 demonstrations answer something else than was asked",
+        imperfections=(partial(answer_wrongly, count=2),),
+    ),
+    Condition(
+        name="irrelevant-2",
+        change="2 of 12 demonstrations are another shape about no object",
+        choose_people=partial(same_people, further=OTHER_SHAPES),
+        imperfections=(partial(draw_beside_the_point, labels=OTHER_SHAPES, count=2),),
+    ),
+    Condition(
+        name="idle-4",
+        change="four further words mean nothing, any digits at random; the second word names the object, the fifth the "
+        "movement",
+        language=replace(PAPER_LANGUAGE, filler_signs=SIGN_LABELS, fillers=4, focus_word=1, movement_word=4),
+    ),
+    Condition(name="synonyms", change="every object has two signs, made in turn", synonyms=SECOND_SIGNS),
+    Condition(
+        name="strangers",
+        change="every drawing and every sign is another clumsy person's",
+        choose_people=clumsy_strangers,
+    ),
+    Condition(
+        name="strangers-many",
+        change="every drawing and every sign is another clumsy person's; 7 movements, 4 objects, each pair shown once, "
+        "any 16 asked for",
+        language=replace(
+            _LARGE,
+            focus_signs=FOCUS_SIGNS[:4],
+            movement_signs=MOVEMENT_SIGNS[:7],
+            movements=SYNTHETIC_MOVEMENTS[:7],
+            unseen=(),
+        ),
+        choose_people=clumsy_strangers,
+    ),
+    Condition(
+        name="mouse",
+        change="what people with a mouse do: every movement is drawn once, 1 of 12 demonstrations answers something "
+        "else, and the hand goes home",
+        language=_DRAWN_ONCE,
+        imperfections=(answer_wrongly, go_home),
+    ),
+    Condition(
+        name="strangers-mouse",
+        change="every drawing and every sign is another clumsy person's, every movement is drawn once, 1 of 12 "
+        "demonstrations answers something else, and the hand goes home",
+        language=_DRAWN_ONCE,
+        choose_people=clumsy_strangers,
+        imperfections=(answer_wrongly, go_home),
+    ),
 )
 SPLITS: dict[str, Condition] = {split.name: split for split in _ALL}
 
@@ -176,14 +246,21 @@ def with_more_demonstrations(session: Session, count: int) -> Session:
     samples = 2 * -(-missing // min(len(language.movements), language.objects)) + SAMPLES
     people = split.choose_people(more, samples, _stream(seed, _WHO), _stream(seed, _MORE_HOW))
     rng = _stream(seed, _MORE_SHOWN)
-    added, meant = compose_demonstrations(more, people.signs, people.movements, rng, split.shown_scenes)
-    truth = session.truth
+    signs, movements = split.written(people.signs), as_source(people.movements)
+    added, meant = compose_demonstrations(more, signs, movements, rng, split.shown_scenes)
+    truth, demonstrations, spoilt = session.truth, list(session.demonstrations), [session.truth.spoilt]
+    for begin in range(0, len(added), len(session.demonstrations)):  # as many of each session's length are imperfect
+        shown = added[begin : begin + len(session.demonstrations)]
+        part = meant.select(begin + np.arange(len(shown)))
+        shown, found = split.make_imperfect(shown, part, movements, rng)
+        spoilt.append(found.spoilt + len(demonstrations))
+        demonstrations += shown
     templates = tuple(a + b for a, b in zip(truth.templates, meant.templates, strict=True))
     movement, focus = (np.concatenate(pair) for pair in ((truth.movement, meant.movement), (truth.focus, meant.focus)))
     return replace(
         session,
-        demonstrations=DemonstrationSet([*session.demonstrations, *added]),
-        truth=GroundTruth(language, movement, focus, templates),
+        demonstrations=DemonstrationSet(demonstrations),
+        truth=GroundTruth(language, movement, focus, templates, np.concatenate(spoilt)),
     )
 
 

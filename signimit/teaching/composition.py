@@ -156,11 +156,13 @@ def compose_utterance(
         if not 0 <= value < count:
             raise InvalidInputError(name, f"an index below {count}", f"{value}")
     source = as_source(signs)
-    words = [language.focus_signs[focus]] * language.words
-    if language.filler_signs:
-        words = [language.filler_signs[int(rng.integers(len(language.filler_signs)))]] * language.words
-    words[language.focus_word] = language.focus_signs[focus]
-    words[language.movement_word] = language.movement_signs[movement]
+    means = {
+        language.focus_word: language.focus_signs[focus],
+        language.movement_word: language.movement_signs[movement],
+    }
+    fillers, words = language.filler_signs, []
+    for place in range(language.words):
+        words.append(means[place] if place in means else fillers[int(rng.integers(len(fillers)))])
     return tuple(source.draw(word, rng).points for word in words)
 
 

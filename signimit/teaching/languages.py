@@ -30,9 +30,10 @@ class Language:
         focus_signs: Label of the sign that asks for each object.
         movement_signs: Label of the sign that asks for each movement.
         movements: Label of each movement.
-        filler_signs: Labels of a third word that means nothing, one drawn at random each time; none in the paper.
+        filler_signs: Labels of words that mean nothing, each drawn at random each time; none in the paper.
+        fillers: How many such words there are, where there are signs for them.
         focus_word: Place in the utterance of the sign that asks for the object, from 0.
-        movement_word: Place of the sign that asks for the movement; a filler takes the place that is left.
+        movement_word: Place of the sign that asks for the movement; fillers take the places that are left.
         prototypes: Labels of the signs that span the sign space.
         unseen: Requests that are never demonstrated. Left out: movement m about object m mod O, the paper's diagonal.
         repetitions: How often each other request is demonstrated.
@@ -43,6 +44,7 @@ class Language:
     movement_signs: tuple[str, ...] = ("4", "5", "6")
     movements: tuple[str, ...] = ("triangle up", "triangle down", "circle")
     filler_signs: tuple[str, ...] = ()
+    fillers: int = 1
     focus_word: int = 0
     movement_word: int = 1
     prototypes: tuple[str, ...] = ("7", "8", "9")
@@ -62,6 +64,8 @@ class Language:
             raise InvalidInputError(
                 "language: movement_signs", f"{len(self.movements)}, one a movement", f"{len(self.movement_signs)}"
             )
+        if self.fillers < 1:
+            raise InvalidInputError("language: fillers", "at least 1; no filler_signs, no fillers", f"{self.fillers}")
         places = {self.focus_word, self.movement_word}
         if len(places) < 2 or not places <= set(range(self.words)):
             raise InvalidInputError(
@@ -77,7 +81,7 @@ class Language:
     @property
     def words(self) -> int:
         """Number of signs in an utterance, W."""
-        return 3 if self.filler_signs else 2
+        return 2 + (self.fillers if self.filler_signs else 0)
 
     @property
     def objects(self) -> int:

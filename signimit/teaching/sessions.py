@@ -120,6 +120,19 @@ class Condition:
     imperfections: tuple[Imperfection, ...] = ()
     synonyms: tuple[tuple[str, str], ...] = ()
 
+    def written(self, signs: Strokes) -> StrokeSource:
+        """Return the signer's strokes, some signs in two ways where there are synonyms."""
+        source = as_source(signs)
+        return SynonymSource(source, dict(self.synonyms)) if self.synonyms else source
+
+    def make_imperfect(
+        self, demonstrations: DemonstrationSet, truth: GroundTruth, movements: StrokeSource, rng: np.random.Generator
+    ) -> tuple[DemonstrationSet, GroundTruth]:
+        """Let people do otherwise than they should in a session's demonstrations."""
+        for imperfection in self.imperfections:
+            demonstrations, truth = imperfection(demonstrations, truth, movements, rng)
+        return demonstrations, truth
+
 
 @one_line
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -165,16 +178,13 @@ def compose_session(
     Raises:
         UnknownNameError: If the people cannot draw what the language needs.
     """
-    language, signs, movements = condition.language, as_source(people.signs), as_source(people.movements)
-    if condition.synonyms:
-        signs = SynonymSource(signs, dict(condition.synonyms))
+    language, signs, movements = condition.language, condition.written(people.signs), as_source(people.movements)
     times = condition.shown_times
     shown = language if times is None else replace(language, repetitions=max(map(times, language.seen)))
     demonstrations, truth = compose_demonstrations(shown, signs, movements, rng, condition.shown_scenes)
     if times is not None:
         demonstrations, truth = _keep_first(demonstrations, truth, times)
-    for imperfection in condition.imperfections:
-        demonstrations, truth = imperfection(demonstrations, truth, movements, rng)
+    demonstrations, truth = condition.make_imperfect(demonstrations, truth, movements, rng)
     if prototypes is None:
         prototypes = compose_prototypes(language, signs, rng)
     asking = signs if people.asking is None else as_source(people.asking)

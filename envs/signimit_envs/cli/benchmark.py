@@ -39,7 +39,8 @@ def run_entries(
             paper, paper-path, paper-literal, deep-12, deep-1200, deep-plain-12, deep-plain-1200, clone-knn, clone-mlp,
             replay-nearby, replay, oracle-grouping, oracle-focus, oracle, chance.
         splits: Names of splits, of paper, unseen-pair, unseen-scene, unseen-style, unseen-person, word-order,
-            filler-word, many, few, noisy, ambiguous, counterfactual; left out, all of them.
+            filler-word, many, few, noisy, ambiguous, counterfactual, once, open-once, retreat, wrong-2, irrelevant-2,
+            idle-4, synonyms, strangers, strangers-many, mouse, strangers-mouse; left out, all of them.
         sessions: How many of each split; the first 20 are shipped, more are composed.
         first_seed: Number of the first session.
         engine: Where sessions run: on the processors of this machine, or on a dask.distributed cluster.

@@ -6,13 +6,17 @@ import shlex
 import shutil
 from pathlib import Path
 
+from signimit.benchmark.results import EARLIER
 from signimit.benchmark.tables import markdown_table
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.io.safe_files import replaced_file
+from signimit.strokes import StrokeLibrary
 from signimit.teaching.people.relabelling import with_both_triangles, with_mirror_images
 from signimit_envs.cli.result_tables import REGION, with_tables
 
 DRAFTS = Path("out/results")  # what is measured stands here until a measurement is complete
+_STROKES = DRAFTS / "strokes"  # of real people, as the commands take them
+PEOPLE = ("signs", "movements", "strangers")  # real ones, whose strokes are not part of this project
 _PEOPLE = "--signs {signs} --movements {movements}"
 _SHAPES = "--labels circle 'triangle up' 'triangle down' rectangle star --kinds path-following knn gmr dmp"
 
@@ -42,6 +46,7 @@ MEASUREMENTS: dict[str, tuple[str, ...]] = {
     "signs": ("study signs --signs {signs} --sessions 300 --out {out}/study",),
     "growth": ("timing growth --out {out}/study",),
     "throughput": ("timing throughput --batches 9 36 256 --seconds 2 --turns 3 --out {out}/throughput",),
+    "clumsiness": ("study clumsiness {strangers} --out {out}/clumsiness",),
     "cost": ("benchmark run --first-seed 20 --sessions 2 --out {out}/benchmark/cost",),
 }
 """What is published: each measurement's commands with their settings."""
@@ -52,6 +57,7 @@ def make_results(
     /,
     signs: tuple[Path, ...] = (),
     movements: tuple[Path, ...] = (),
+    strangers: Path | None = None,
     out: Path = Path("results"),
 ) -> None:
     """Measure what is published, with the published settings, and write it into the folder of results.
@@ -61,21 +67,28 @@ def make_results(
 
     Args:
         names: Which measurements, of sessions, real-people, benchmark, policies, judge, paper-conditions, cells,
-            asking, people, signs, growth, throughput, cost; left out, all that can be made of what is given.
+            asking, people, signs, growth, throughput, clumsiness, cost; left out, all that can be made of what is
+            given.
         signs: Digits of real people: pendigits-orig.tra and .tes of UCI, or libraries made of them.
         movements: Shapes of real people: the folder xml_logs of the $1 recogniser, or a library made of it.
+        strangers: Library of people who are strangers to each other, one drawing each, e.g. of Quick, Draw!
         out: Folder of results.
     """
-    places = {}
-    if signs and movements:
-        places = _prepare_strokes(signs, movements)
+    places = _prepare_strokes(signs, movements) if signs and movements else {}
+    if strangers is not None:
+        places["strangers"] = str(_STROKES / "strangers.npz")
+        _STROKES.mkdir(parents=True, exist_ok=True)
+        StrokeLibrary.load(strangers).save(places["strangers"])
     for name in names:
         if name not in MEASUREMENTS:
             raise UnknownNameError("measurement", name, MEASUREMENTS)
-        if not places and needs_people(name):
-            raise InvalidInputError(name, "strokes of real people, --signs and --movements", "none")
-    for name in names or [name for name in MEASUREMENTS if places or not needs_people(name)]:
-        draft = DRAFTS / name
+        if missing := people_of(name) - set(places):
+            options = " and ".join(f"--{option}" for option in sorted(missing, reverse=True))
+            raise InvalidInputError(name, f"strokes of real people, {options}", "none")
+    for name in names or [name for name in MEASUREMENTS if people_of(name) <= set(places)]:
+        draft, kept = DRAFTS / name, out / name / EARLIER
+        if kept.is_dir():  # rows that stand in this measurement's tables and are not made again
+            shutil.copytree(kept, draft / name / EARLIER, dirs_exist_ok=True)
         for command in MEASUREMENTS[name]:
             words = [word.format(out=draft, **places) for word in shlex.split(command)]
             print(f"results make {name}: {shlex.join(words)}", flush=True)
@@ -90,23 +103,22 @@ def make_results(
     print(f"Written to {out}; `results readme` writes the tables of README and docs.")
 
 
-def needs_people(name: str) -> bool:
-    """Tell whether a measurement needs strokes of real people."""
-    return any("{signs}" in command or "{movements}" in command for command in MEASUREMENTS[name])
+def people_of(name: str) -> set[str]:
+    """Return whose strokes a measurement needs, of signs, movements and strangers."""
+    return {who for who in PEOPLE if any(f"{{{who}}}" in command for command in MEASUREMENTS[name])}
 
 
 def _prepare_strokes(signs: tuple[Path, ...], movements: tuple[Path, ...]) -> dict[str, str]:
     """Import strokes into two libraries, with triangles both ways up and circles both ways round."""
     from signimit.benchmark.studies.real_people import read_people
 
-    folder = DRAFTS / "strokes"
-    folder.mkdir(parents=True, exist_ok=True)
-    read_people(signs).save(folder / "signs.npz")
+    _STROKES.mkdir(parents=True, exist_ok=True)
+    read_people(signs).save(_STROKES / "signs.npz")
     shapes = with_both_triangles(read_people(movements))
     if "circle, other way" not in shapes.labels:
         shapes = with_mirror_images(shapes, {"circle": "circle, other way"})
-    shapes.save(folder / "movements.npz")
-    return {"signs": str(folder / "signs.npz"), "movements": str(folder / "movements.npz")}
+    shapes.save(_STROKES / "movements.npz")
+    return {"signs": str(_STROKES / "signs.npz"), "movements": str(_STROKES / "movements.npz")}
 
 
 def _run(words: list[str]) -> None:
@@ -125,8 +137,9 @@ def results_page() -> str:
 
 `sh scripts/run.sh results make NAME...` alone writes this folder; every other program writes to `out/`. The tables of
 README and docs are made from it by `sh scripts/run.sh results readme`, and show nothing that another judge said.
-`{{signs}}` are UCI's pendigits-orig, `{{movements}}` the $1 recogniser's xml_logs; neither is in this repository. The
-folder `checker` has what a program that is not part of this project, and shares no code with it, found.
+`{{signs}}` are UCI's pendigits-orig, `{{movements}}` the $1 recogniser's xml_logs, `{{strangers}}` single drawings by
+players of Quick, Draw!; none is in this repository. `benchmark/earlier` has rows of learners that are gone. The folder
+`checker` has what a program that is not part of this project, and shares no code with it, found.
 
 {markdown_table(("name", "commands"), rows)}
 """

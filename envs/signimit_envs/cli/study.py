@@ -44,6 +44,7 @@ from signimit.teaching.sessions import Condition
 from signimit_envs.cli.command_line import check_output_folder, command_text
 from signimit_envs.cli.options import ALL_CELLS, CellOptions
 from signimit_envs.cli.study_assumptions import study_assumptions
+from signimit_envs.cli.study_clumsiness import study_clumsiness
 from signimit_envs.cli.study_drawing_weights import compare_libraries, study_drawing_weights
 from signimit_envs.cli.study_judge import study_judge
 from signimit_envs.cli.study_paper import compare_conditions
@@ -269,5 +270,5 @@ SUBCOMMANDS = {
     "cells": cells, "calibration": calibration, "asking": asking, "people": left_out_people, "signs": reading_signs,
     "real-people": real_people, "judge": study_judge, "paper": compare_conditions,
     "policies": compare_policies, "lasa": compare_on_lasa, "drawing-weights": study_drawing_weights,
-    "assumptions": study_assumptions,
+    "assumptions": study_assumptions, "clumsiness": study_clumsiness,
 }  # fmt: skip

@@ -14,7 +14,7 @@ from signimit_envs.arm.scene import check_object_count
 MOVEMENTS = ("triangle up", "triangle down", "circle")
 _DIGITS = "1234567890"
 _FIELDS = tuple(field.name for field in dataclasses.fields(Language))
-_NUMBERS = ("focus_word", "movement_word", "repetitions", "rounds")
+_NUMBERS = ("fillers", "focus_word", "movement_word", "repetitions", "rounds")
 
 
 def choose_language(

@@ -24,6 +24,7 @@ from signimit.teaching.scenes import sample_scene
 
 SIGN_SAMPLES, MOVEMENT_SAMPLES = 24, 12  # how often a synthetic person draws each label
 CROWD = 6  # synthetic people, where each sign and movement may be another one's
+CLUMSY = 2.25  # times the usual spread: as far from each other as players of Quick, Draw! (`study clumsiness`)
 LARGER, FASTER, MORE_SLANTED = 1.8, 1.8, 0.9  # another style: times the size, times the speed, shear added
 WAVER = 0.18  # half sizes, root mean square, where people are noisy
 
@@ -175,12 +176,17 @@ class PeopleChooser(Protocol):
 
 
 def same_people(
-    language: Language, samples: int, who: np.random.Generator, how: np.random.Generator
+    language: Language,
+    samples: int,
+    who: np.random.Generator,
+    how: np.random.Generator,
+    *,
+    further: Sequence[str] = (),
 ) -> People[StrokeLibrary]:
-    """One signer and one mover; the signer also asks in the end."""
+    """One signer and one mover, who draws ``further`` things besides the movements; the signer also asks in the end."""
     signer, mover = Person.sample(who), Person.sample(who)
     signs = _draw_all([signer], language.signs, samples, how)
-    return People(language, signs, _draw_all([mover], language.movements, samples, how))
+    return People(language, signs, _draw_all([mover], (*language.movements, *further), samples, how))
 
 
 def another_style(
@@ -206,6 +212,20 @@ def strangers(
     signs = _draw_all(signers, language.signs, samples, how)
     movements = _draw_all(movers, language.movements, samples, how)
     return People(language, signs, movements, _draw_all([stranger], language.signs, samples, how))
+
+
+def clumsy_strangers(
+    language: Language, samples: int, who: np.random.Generator, how: np.random.Generator
+) -> People[StrokeLibrary]:
+    """Everything is drawn by somebody else, and people are as far from each other as `CLUMSY` says.
+
+    There are so many people as one would draw ``samples``. Each makes every sign once, and draws every movement in one
+    demonstration; signs of those who have not made them yet ask.
+    """
+    signers = [Person.sample(who, CLUMSY) for _ in range(samples)]
+    movers = [Person.sample(who, CLUMSY) for _ in range(samples)]
+    signs = _draw_all(signers, language.signs, 1, how)
+    return People(language, signs, _draw_all(movers, language.movements, language.rounds, how))
 
 
 def wavering_people(

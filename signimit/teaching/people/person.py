@@ -56,18 +56,24 @@ class Style:
     tremor: float
 
     @classmethod
-    def sample(cls, rng: np.random.Generator) -> Style:
-        """Draw a style."""
-        gap = rng.normal(0.0, 0.15, 2)
+    def sample(cls, rng: np.random.Generator, spread: float = 1.0) -> Style:
+        """Draw a style.
+
+        Args:
+            rng: Decides which.
+            spread: How far people are from each other in what has no bounds, times the usual; `choosing.CLUMSY` is as
+                far as players of Quick, Draw! are.
+        """
+        gap = rng.normal(0.0, 0.15 * spread, 2)
         return cls(
-            size=float(np.exp(rng.normal(0.0, 0.12))),
-            aspect=float(np.exp(rng.normal(0.0, 0.12))),
-            slant=rng.normal(0.08, 0.12),
-            tilt=rng.normal(0.0, 0.05),
-            tempo=float(0.30 * np.exp(rng.normal(0.0, 0.15))),
+            size=float(np.exp(rng.normal(0.0, 0.12 * spread))),
+            aspect=float(np.exp(rng.normal(0.0, 0.12 * spread))),
+            slant=rng.normal(0.08, 0.12 * spread),
+            tilt=rng.normal(0.0, 0.05 * spread),
+            tempo=float(0.30 * np.exp(rng.normal(0.0, 0.15 * spread))),
             fluency=rng.uniform(0.5, 0.62),
             roundness=rng.uniform(0.2, 0.5),
-            bow=rng.normal(0.0, 0.12),
+            bow=rng.normal(0.0, 0.12 * spread),
             asymmetry=rng.uniform(0.02, 0.1),
             closing=(float(gap[0]), float(gap[1])),
             sloppiness=rng.uniform(0.02, 0.05),
@@ -90,10 +96,10 @@ class Person:
     habits: Mapping[str, NDArray[np.float64]]
 
     @classmethod
-    def sample(cls, rng: np.random.Generator) -> Person:
-        """Draw a person."""
-        style = Style.sample(rng)
-        habits = {label: rng.normal(0.0, 0.08, glyph.targets.shape) for label, glyph in GLYPHS.items()}
+    def sample(cls, rng: np.random.Generator, spread: float = 1.0) -> Person:
+        """Draw a person, whose style and habits are so many times as far from other people's as usual."""
+        style = Style.sample(rng, spread)
+        habits = {label: rng.normal(0.0, 0.08 * spread, glyph.targets.shape) for label, glyph in GLYPHS.items()}
         for habit in habits.values():
             habit.setflags(write=False)
         return cls(style, habits)

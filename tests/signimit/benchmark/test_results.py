@@ -9,6 +9,7 @@ import pytest
 from signimit.benchmark.entries import EntrantReference
 from signimit.benchmark.judge import judge_hash
 from signimit.benchmark.results import (
+    EARLIER,
     ResultFile,
     Summary,
     installed_versions,
@@ -87,6 +88,16 @@ def test_results_of_something_else_are_refused_and_left_alone(
     with pytest.raises(FileFormatError, match=sentence):
         run(file, range(2))
     assert file.records.read_text() == changed
+
+
+def test_a_file_of_before_a_split_was_added_goes_on(file: ResultFile) -> None:
+    run(file, [0])
+    header, *lines = file.records.read_text().splitlines()
+    fewer = json.loads(header)
+    del fewer["splits"]["mouse"]
+    file.records.write_text("\n".join([json.dumps(fewer), *lines]) + "\n")
+    assert len(run(file, range(2))) == 2
+    assert len(file.read()) == 4
 
 
 def test_a_line_that_is_no_record_is_named(file: ResultFile) -> None:
@@ -217,6 +228,29 @@ def test_the_mean_over_splits_has_the_interval_of_people_who_are_the_same_in_all
     assert (every["count"], every["low"] < every["mean"] < every["high"]) == (80, True)
     list(run_missing(file, ["few"], [20], engine))
     assert write_summary(file)["all"] is None
+
+
+def test_rows_of_learners_that_are_gone_stay_in_the_table(tmp_path: Path, still: EntrantReference) -> None:
+    rows_of(tmp_path, still, {"a": range(3)})
+    rows_of(tmp_path / EARLIER, still, {"old": range(3)})
+    assert [row["entry"] for row in read_comparable_summaries(tmp_path)] == ["a.py:Still", "old.py:Still"]
+    change_row(tmp_path / EARLIER, "old", lambda row: row.update(judge="abc"))
+    with pytest.raises(FileFormatError, match=rf"{EARLIER}/old.py-Still.json: .* --out {tmp_path / EARLIER}` runs it"):
+        read_comparable_summaries(tmp_path)
+
+
+def test_an_entry_of_a_package_is_known_by_all_its_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "their_learner"
+    package.mkdir()
+    for name, text in {"__init__": "", "entry": "class Still: ...\n", "part": "x = 1\n"}.items():
+        (package / f"{name}.py").write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    reference = EntrantReference("their_learner.entry:Still")
+    first = ResultFile(tmp_path, reference).header["source"]
+    assert first == ResultFile(tmp_path, reference).header["source"] != code_hash()
+    (package / "part.py").write_text("x = 2\n")
+    assert ResultFile(tmp_path, reference).header["source"] != first
+    assert ResultFile(tmp_path, EntrantReference("joint")).header["source"] is None
 
 
 def test_a_folder_without_results_says_what_makes_them(tmp_path: Path) -> None:

@@ -241,3 +241,25 @@ def test_what_is_not_a_velocity_is_refused(given: Any) -> None:
         InvalidInputError, match=r"act at step 0: expected a finite velocity of shape \(2,\), m/s, found"
     ):
         obey(Recorder(given), COMMAND)
+
+
+def test_what_is_inferred_of_hands_that_err_is_not_scored(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Doubtful:
+        """Understands all but the demonstrations that do something else."""
+
+        def __init__(self, kit: Kit, truth: Truth) -> None:
+            shown, order = truth.shown, WordOrder(0, 1)
+            labels, focus = np.where(shown.sound, shown.movement, -1), np.where(shown.sound, shown.focus, -1)
+            self.understanding = Understanding(labels, focus, order)
+
+        def observe(self, demonstrations: DemonstrationSet) -> None: ...
+
+        def begin(self, signs: Any, objects: Any) -> None: ...
+
+        def act(self, observation: Observation) -> tuple[float, float]:
+            return 0.0, 0.0
+
+    monkeypatch.setitem(entries.ENTRANTS, "doubtful", Oracle(name="doubtful", title="", make=Doubtful))
+    get_entrant.cache_clear()
+    record = run_task(SessionTask(EntrantReference("doubtful"), "wrong-2", 0))
+    assert (record["groups"], record["focus"], record["order"]) == (1.0, 1.0, 1.0)

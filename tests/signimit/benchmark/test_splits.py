@@ -1,4 +1,4 @@
-"""Every split is the paper's session with one thing changed."""
+"""Every split is the paper's session with something changed."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ from signimit.benchmark.splits import (
 )
 from signimit.exceptions import UnknownNameError
 from signimit.teaching.languages import PAPER_LANGUAGE
-from signimit.teaching.people.choosing import CROWD, another_style, same_people, strangers
+from signimit.teaching.people.choosing import CROWD, another_style, clumsy_strangers, same_people, strangers
 from signimit.teaching.sessions import Session
 
 
@@ -149,6 +149,57 @@ def test_a_counterfactual_family_differs_in_one_thing() -> None:
             assert np.array_equal(other.hand, first.hand)
 
 
+@pytest.mark.parametrize(("name", "rounds"), [("paper", 2), ("once", 1), ("open-once", 1), ("mouse", 1)])
+def test_movements_are_drawn_once_where_the_split_says_so(name: str, rounds: int) -> None:
+    truth = composed(name).truth
+    assert [len(drawings) for drawings in truth.templates] == [4 * rounds] * 3
+
+
+def test_open_strokes_end_elsewhere_than_they_began() -> None:
+    for drawings in composed("open-once").truth.templates:
+        assert all(np.linalg.norm(d[-1] - d[0]) > 0.4 * np.ptp(d, axis=0).max() for d in drawings)
+
+
+@pytest.mark.parametrize(("name", "count"), [("wrong-2", 2), ("irrelevant-2", 2), ("mouse", 1), ("strangers-mouse", 1)])
+def test_hands_that_err_are_known_to_the_judge_and_further_ones_err_as_often(name: str, count: int) -> None:
+    session = composed(name)
+    assert len(session.truth.spoilt) == count
+    more = with_more_demonstrations(session, 36)
+    assert list(more.truth.spoilt[:count]) == list(session.truth.spoilt)
+    assert [int((more.truth.spoilt // 12 == part).sum()) for part in range(3)] == [count] * 3
+
+
+@pytest.mark.parametrize("name", ["retreat", "mouse"])
+def test_hands_go_home(name: str) -> None:
+    for demonstration in with_more_demonstrations(composed(name), 24).demonstrations:
+        assert np.array_equal(demonstration.hand[-1], demonstration.hand[0])
+
+
+def test_four_idle_words_stand_about_the_two_that_mean_something(paper: Session) -> None:
+    session = composed("idle-4")
+    assert {len(d.signs) for d in session.demonstrations} == {len(c.signs) for c in session.commands} == {6}
+    assert sorted(session.truth.requests) == sorted(paper.truth.requests)
+
+
+def test_objects_have_two_signs_each(paper: Session) -> None:
+    session = composed("synonyms")
+    assert session.truth.requests == paper.truth.requests
+    usual, second = ([d.signs[0] for d in s.demonstrations] for s in (paper, session))
+    same = [np.array_equal(a, b) for a, b in zip(usual, second, strict=True)]
+    assert 0 < sum(same) < len(same)
+
+
+def test_clumsy_strangers_are_all_different_people_and_farther_apart() -> None:
+    people = clumsy_strangers(PAPER_LANGUAGE, 6, np.random.default_rng(0), np.random.default_rng(1))
+    assert people.asking is None
+    assert len(set(people.signs.writers)) == len(set(people.movements.writers)) == 6
+    session = composed("strangers")
+    signs = [s.tobytes() for d in session.demonstrations for s in d.signs]
+    assert len(set(signs)) == len(signs)
+    many = composed("strangers-many")
+    assert (len(many.demonstrations), many.demonstrations.objects.shape[1], len(set(many.truth.movement))) == (28, 4, 7)
+
+
 def test_more_demonstrations_are_by_the_same_people_and_show_no_pair_that_is_held_back(paper: Session) -> None:
     more = with_more_demonstrations(paper, 20)
     assert len(more.demonstrations) == len(more.truth.requests) >= 20
@@ -168,6 +219,6 @@ def test_the_generator_of_an_entry_is_the_same_each_time_and_does_not_tell_the_s
 
 def test_an_unknown_split_is_answered_with_the_known_ones() -> None:
     assert [s.name for s in choose_splits(("few", "paper", "few"))] == ["few", "paper"]
-    assert len(choose_splits(())) == 12
+    assert len(choose_splits(())) == 23
     with pytest.raises(UnknownNameError, match="Unknown split 'hard'; known are paper, unseen-pair, "):
         choose_splits(("hard",))

@@ -24,6 +24,15 @@ def test_a_single_object_holds_nothing_back() -> None:
     assert len(Language(focus_signs=("1",)).seen) == 3
 
 
+def test_several_fillers_take_the_places_that_are_left() -> None:
+    language = Language(filler_signs=("0", "9"), fillers=4, focus_word=1, movement_word=4)
+    assert language.words == 6
+    with pytest.raises(InvalidInputError, match="language: fillers: expected at least 1; no filler_signs, no fillers"):
+        Language(filler_signs=("0",), fillers=0)
+    with pytest.raises(InvalidInputError, match="two places out of"):
+        Language(filler_signs=("0",), fillers=2, focus_word=0, movement_word=4)
+
+
 def test_a_filler_makes_three_words() -> None:
     assert Language(filler_signs=("0",), focus_word=2, movement_word=0).words == 3
 

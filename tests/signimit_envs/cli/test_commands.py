@@ -39,6 +39,7 @@ def test_every_module_is_a_command() -> None:
         "fuzz-files",
         "fuzz-studio",
         "study-assumptions",
+        "study-clumsiness",
         "study-drawing-weights",
         "study-judge",
         "study-paper",

@@ -15,7 +15,7 @@ from signimit.benchmark.judge import CRITERION, judge_hash
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit_envs.cli import COMMANDS, results
 from signimit_envs.cli.result_tables import REGION, TABLES, with_tables
-from signimit_envs.cli.results import MEASUREMENTS, needs_people, results_page
+from signimit_envs.cli.results import MEASUREMENTS, people_of, results_page
 
 ROOT = Path(__file__).parents[3]
 RESULTS = ROOT / "results"
@@ -123,7 +123,11 @@ def test_what_cannot_be_made_is_told_before_anything_is_run(
     pytest.importorskip("tyro", reason="commands need tyro")
     monkeypatch.chdir(tmp_path)
     assert "Unknown measurement 'nonsense'" in run.refusal("results", "make", "sessions", "nonsense")
-    assert needs_people("real-people")
+    assert people_of("real-people") == {"signs", "movements"}
+    assert people_of("sessions") == set()
+    assert "clumsiness: expected strokes of real people, --strangers, found none." in run.refusal(
+        "results", "make", "clumsiness"
+    )
     sentence = "real-people: expected strokes of real people, --signs and --movements, found none."
     assert sentence in run.refusal("results", "make", "sessions", "real-people")
     assert not list(tmp_path.iterdir())

@@ -124,3 +124,11 @@ def test_a_reach_ends_near_the_object() -> None:
     for label in GOAL_LABELS:
         stroke = Person.sample(rng).draw(label, rng)
         assert np.linalg.norm(stroke.points[-1]) < 0.04 < np.linalg.norm(stroke.points[0])
+
+
+def test_the_usual_spread_is_one_and_what_has_bounds_keeps_them() -> None:
+    usual, same, wide = (Person.sample(np.random.default_rng(9), *spread) for spread in ((), (1.0,), (3.0,)))
+    assert usual.style == same.style
+    np.testing.assert_allclose(wide.habits["circle"], 3 * usual.habits["circle"])
+    assert (wide.style.fluency, wide.style.roundness) == (usual.style.fluency, usual.style.roundness)
+    assert np.log(wide.style.aspect) == pytest.approx(3 * np.log(usual.style.aspect))
