@@ -92,16 +92,25 @@ def test_a_demonstration_can_be_undone_redone_deleted_and_redrawn(
     assert len(after["signs"][0]["points"]) == 8 != len(before["signs"][0]["points"])
 
 
-def test_taps_far_starts_and_cancelled_fingers_draw_nothing(visit: Visit, new_session: NewSession) -> None:
+def test_taps_and_cancelled_fingers_draw_nothing_and_a_movement_off_the_hand_starts_where_it_begins(
+    visit: Visit, new_session: NewSession, in_picture: Callable[..., Any]
+) -> None:
     visitor = visit(touch=True, viewport=PHONE)
     visitor.open("teach", new_session())
     pad, line = "#teach-pads figure:nth-child(1) canvas", np.linspace(0.3, 0.7, 8)[:, None] * [1, 1]
     visitor.draw(pad, line[:1], np.zeros(1))
     visitor.draw(pad, line, np.linspace(0, 0.4, 8), lift=False)
     visitor.event("Cancel", 0, 0, visitor.clock)
-    visitor.draw("#teach-stage .sheet", np.full((4, 2), 0.02) + line[:4] * 0.1, np.linspace(0, 0.2, 4))
+    visitor.page.locator("#teach-stage .stage:not(.waiting)").wait_for()
+    visitor.draw("#teach-stage .sheet", np.full((1, 2), 0.05), np.zeros(1))
     visitor.see("#teach-hint strong", "Begin at the hand")
     expect(drawn(visitor, 1)).to_have_count(0)
+    corner = np.array([[0.2, 0.05], [0.3, 0.1], [0.35, 0.3]])
+    visitor.draw("#teach-stage .sheet", corner, np.linspace(0, 0.2, 3))
+    visitor.until_kept("hand")
+    begun = visitor.session()["draft"]["drawn"]["hand"][0]["points"]
+    found = in_picture(visitor.api("studio")["picture"], np.array(begun))
+    np.testing.assert_allclose(found, corner, atol=0.01)
     visitor.draw(pad, line, np.linspace(0, 0.4, 8))
     expect(drawn(visitor, 1)).to_be_visible()
     expect(visitor.page.locator("#teach-it")).to_be_disabled()

@@ -18,7 +18,8 @@ export class AskTable {
   constructor(host, live, framed) {
     this.live = live;
     this.framed = framed;
-    this.header = null;
+    this.header = null; // what was told last
+    this.shown = null; // what was told beside the picture that is seen
     this.handles = [];
     this.waiting = [];
     this.held = null; // {object, to} or {shove, to}
@@ -33,7 +34,7 @@ export class AskTable {
   }
 
   watch(on) {
-    if (!on) this.header = null;
+    if (!on) this.header = this.shown = null;
     this.live.watch(on);
   }
 
@@ -52,12 +53,13 @@ export class AskTable {
     const shown = this.stage.show(new Blob([jpeg], { type: "image/jpeg" }));
     shown.catch(() => {}).finally(() => {
       this.decoding = false;
+      this.shown = header;
       this.stage.paint();
     });
   }
 
   paint(pen) {
-    const { header, held } = this;
+    const { shown: header, held } = this;
     if (!header) return;
     if (!this.stage.photographed) drawObjects(pen, header.objects);
     drawLetters(pen, header.objects);

@@ -67,12 +67,12 @@ export class Replay {
     await attempt(async () => {
       const what = chosen.startsWith("d") ? await shownDemonstration(chosen) : await shownAnswer(chosen);
       if (chosen !== this.choice.value) return;
+      await this.stage.show(what.picture);
+      if (chosen !== this.choice.value) return;
       this.what = what;
       this.sentence.textContent = what.sentence;
       this.signs.replaceChildren(...what.signs.map((sign, i) => signPicture(fitted(sign).points, `Sign ${i + 1}`)));
       this.put(what.times.length);
-      await this.stage.show(what.picture);
-      this.stage.paint();
     });
     return undefined;
   }

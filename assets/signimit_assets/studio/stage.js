@@ -41,6 +41,7 @@ export class Stage {
 
   set waiting(still) {
     this.element.classList.toggle("waiting", still);
+    this.paint();
   }
 
   /** Draw the bare table. */
@@ -69,7 +70,7 @@ export class Stage {
     pen.setTransform(width / 640, 0, 0, width / 640, 0, 0);
     pen.clearRect(0, 0, 640, 480);
     pen.lineCap = pen.lineJoin = "round";
-    this.scene(pen);
+    if (!this.waiting) this.scene(pen); // nothing of a new scene is seen above the picture of the last one
   }
 
   /** Metres under a pixel of the sheet, {x, y} from its corner. */

@@ -7,10 +7,10 @@ import { Recording, TOO_LONG, distance, followPointer } from "./pen.js";
 import { Stage, drawHand, drawLetters, drawObjects, drawPath } from "./stage.js";
 import { store } from "./store.js";
 
-const NEAR = 0.06; // m, from the hand's place; where a movement may begin
+const NEAR = 0.06; // m, from the hand's place; what begins there begins at the hand
 const FINGER = 28; // CSS pixels, the same for fingers on small screens
 const LEAST = 0.02; // m; what reaches less far was a tap
-const HINT = "Begin at the hand, the yellow dot.";
+const HINT = "Begin at the hand, the yellow dot; begun elsewhere, it starts there.";
 
 export class TeachTable {
   /**
@@ -40,10 +40,10 @@ export class TeachTable {
     this.drawing = null;
     [this.scene, this.hand] = [scene, hand];
     this.hint(HINT);
+    this.stage.waiting ||= this.picture !== picture;
     this.stage.draw((pen) => this.paint(pen));
     if (this.picture === picture) return;
     this.picture = picture;
-    this.stage.waiting = true;
     try {
       const jpeg = store.studio.can_draw ? await blob(picture) : null;
       if (this.picture === picture) await this.stage.show(jpeg);
@@ -69,19 +69,15 @@ export class TeachTable {
     drawLetters(pen, this.scene.objects);
     const made = this.drawing ?? this.hand;
     if (made) drawPath(pen, made.points);
-    drawHand(pen, this.drawing || this.played ? made.points.at(-1) : this.scene.hand);
+    drawHand(pen, this.drawing || this.played ? made.points.at(-1) : (made?.points[0] ?? this.scene.hand));
   }
 
   begin(at) {
     if (!this.free() || !this.scene || this.stage.waiting) return false;
     const near = Math.max(NEAR, FINGER * this.stage.pixel);
-    if (distance(this.stage.metres(at), this.scene.hand) > near) {
-      this.hint(HINT, true);
-      return false;
-    }
     this.turn += 1;
     this.drawing = new Recording();
-    this.drawing.add(this.scene.hand, at.time - 0.01);
+    if (distance(this.stage.metres(at), this.scene.hand) <= near) this.drawing.add(this.scene.hand, at.time - 0.01);
     this.move(at);
     return true;
   }
