@@ -382,24 +382,29 @@ def test_what_is_to_be_drawn_is_said_for_prompts_for_made_up_signs_and_for_redra
     assert call("prompts", say, session, {"text": "Draw a circle."}, None) == "Draw a circle."
     assert call("prompts", say, session, None, None).startswith("Make up two signs")
     again = call("prompts", say, session, None, 0)
-    assert again.endswith("about the red object. Draw again whatever went wrong.")
+    assert again.endswith("about the red object; once is enough. Draw again whatever went wrong.")
     assert call("prompts", say, session, None, 1) == "Draw again whatever went wrong."
     shown = call("prompts", "({ shownTexts }, session) => [0, 1].map((n) => shownTexts(session, n))", session)
     assert shown == [["Demonstration 1, by person", again.split(" Draw again")[0]], ["Demonstration 2", ""]]
 
 
-def test_what_is_suspected_can_be_redrawn_where_it_is_doubted(call: Call) -> None:
+def test_what_is_suspected_can_be_redrawn_or_kept_where_it_is_doubted(call: Call) -> None:
     script = """
     ({ doubtItem, startBelief }, doubt) => {
       const redrawn = [];
       startBelief({ redraw: (number) => redrawn.push(number) });
-      const made = doubtItem(doubt);
-      made.querySelector("button")?.click();
-      return [made.firstChild.textContent, redrawn];
+      const host = document.createElement("ul");
+      host.append(doubtItem(doubt));
+      const [redraw, keep] = host.querySelectorAll("button");
+      redraw?.click();
+      const before = host.firstChild.firstChild.textContent;
+      keep?.click();
+      return [before, redrawn, host.textContent, doubtItem(doubt).textContent];
     }"""
     doubt = {"number": 4, "text": "It is odd.", "suspected": True}
-    assert call("belief", script, doubt) == ["It is odd. Redraw it, or keep it as it is. ", [4]]
-    assert call("belief", script, {**doubt, "suspected": False}) == ["It is odd.", []]
+    kept = "It is odd. It is kept as it is."
+    assert call("belief", script, doubt) == ["It is odd. ", [4], kept, kept]
+    assert call("belief", script, {**doubt, "suspected": False})[:2] == ["It is odd.", []]
 
 
 def test_a_belief_is_said_with_its_probability(call: Call) -> None:

@@ -216,8 +216,7 @@ export class Ask {
   }
 
   /** Keep a verdict; the same once more takes it back. */
-  judge(good) {
-    const { number, verdict } = store.session.answers[this.asked.number] ?? this.asked;
+  judge(good, { number, verdict } = store.session.answers[this.asked.number] ?? this.asked) {
     const wanted = { good: verdict === good ? null : good };
     return attempt(async () => accept(await api.post(path(`answers/${number}/verdict`), wanted)));
   }
@@ -266,6 +265,9 @@ export class Ask {
         "li",
         {},
         make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${waits} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
+        answer.verdict === null && answer.number !== this.asked?.number
+          ? button("Wrong", () => this.judge(false, answer), { className: "plain", "aria-label": `Answer ${answer.number + 1} is wrong` })
+          : null,
         answer.verdict === false
           ? button("Correct", () => this.meant(answer.number), { className: "plain", "aria-label": `Correct answer ${answer.number + 1}` })
           : null,

@@ -1,12 +1,13 @@
 /** What the robot believes: each demonstration, the movements, the words, their order, its doubts and its wish. */
 
 import * as api from "./api.js";
-import { attempt, button, byId, capital, make, percent, plural } from "./dom.js";
+import { announce, attempt, button, byId, capital, make, percent, plural } from "./dom.js";
 import { beliefSentence, movementPicture, objectPatch, scenePicture, signPicture } from "./pictures.js";
 import { change, demonstration, objectName, path, store, subscribe } from "./store.js";
 
 const NEIGHBOURHOOD = 0.17; // m about the object that is shown of a movement
 const ORDINALS = ["first", "second"];
+const kept = new Set(); // suspicions that a person has answered by keeping the demonstration
 let selected = null;
 let hooks = {};
 
@@ -36,6 +37,8 @@ function show() {
   else if (!belief || belief.failed) parts.push(make("p", { className: "lead", textContent: belief?.failed ?? "…" }));
   else parts.push(orderCard(belief), demonstrationCard(belief), movementCard(belief), objectCard(belief), wishCard(belief));
   if (demonstrations.length && belief?.failed) parts.push(demonstrationCard(null));
+  const known = demonstrations.length && belief && !belief.failed;
+  byId("teach-believed").textContent = known ? `Demonstration ${selected + 1}: ${beliefSentence(belief, selected)}.` : "";
   const label = host.contains(document.activeElement) && document.activeElement.getAttribute("aria-label");
   host.replaceChildren(...parts);
   if (!label) return; // else the keyboard keeps its place
@@ -191,11 +194,30 @@ function chips(belief, members) {
   return make("div", { className: "chips" }, ...made);
 }
 
-/** What is doubted, and why; what is suspected can be drawn again here, or is kept as it is. */
-export function doubtItem({ number, text, suspected }) {
+/** What is doubted, and why; what is suspected can be drawn again here, or be kept as it is. */
+export function doubtItem(doubt) {
+  const { number, text, suspected } = doubt;
+  const key = `${store.session?.id} ${text}`;
   if (!suspected) return make("li", { textContent: text });
-  const redraw = button("Redraw", () => hooks.redraw(number), { "aria-label": `Redraw suspected demonstration ${number + 1}` });
-  return make("li", {}, make("span", { textContent: `${text} Redraw it, or keep it as it is. ` }), redraw);
+  if (kept.has(key)) return make("li", { className: "quiet", textContent: `${text} It is kept as it is.` });
+  const which = `suspected demonstration ${number + 1}`;
+  const keep = () => {
+    kept.add(key);
+    item.replaceWith(doubtItem(doubt));
+    announce(`Demonstration ${number + 1} is kept as it is.`);
+  };
+  const item = make(
+    "li",
+    {},
+    make("span", { textContent: `${text} ` }),
+    make(
+      "span",
+      { className: "row" },
+      button("Redraw it", () => hooks.redraw(number), { "aria-label": `Redraw ${which}` }),
+      button("Keep it", keep, { "aria-label": `Keep ${which}` }),
+    ),
+  );
+  return item;
 }
 
 function wishCard(belief) {

@@ -101,7 +101,7 @@ export function joined(first, second) {
   const gap = Math.min(BRIDGE_MOST, Math.max(2 * BRIDGE_STEP, distance(first.points.at(-1), second.points[0]) * 0.2));
   const steps = Math.max(1, Math.round(gap / BRIDGE_STEP));
   const [from, to, start] = [first.points.at(-1), second.points[0], first.times.at(-1)];
-  const bridge = Array.from({ length: steps - 1 }, (_, i) => mix(from, to, (i + 1) / steps));
+  const bridge = Array.from({ length: steps - 1 }, (_, i) => between(from, to, (i + 1) / steps));
   return {
     points: [...first.points, ...bridge, ...second.points],
     times: [
@@ -112,5 +112,5 @@ export function joined(first, second) {
   };
 }
 
-const mix = (a, b, share) => [a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share];
+export const between = (a, b, share) => [a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share];
 export const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);

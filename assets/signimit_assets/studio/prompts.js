@@ -7,7 +7,7 @@ import { objectName } from "./store.js";
 /** Say what to draw; `old` is the number of a demonstration that is drawn again, or null. */
 export function sentence(session, prompt, old) {
   if (old === null) {
-    return prompt?.text ?? "Make up two signs, one for an object and one for a movement. Then move about that object.";
+    return prompt?.text ?? "Make up two signs, one for an object and one for a movement. Then move about that object; once is enough.";
   }
   const asked = session.demonstrations[old].prompt;
   const again = "Draw again whatever went wrong.";
@@ -42,7 +42,7 @@ export function promptText(language, { movement, focus }) {
   const signs = [];
   signs[language.focus_word] = language.focus_signs[focus];
   signs[language.movement_word] = language.movement_signs[movement];
-  return `Sign ${signs[0]}, then ${signs[1]}. Then draw a ${language.movements[movement]} about the ${objectName(focus)} object.`;
+  return `Sign ${signs[0]}, then ${signs[1]}. Then draw a ${language.movements[movement]} about the ${objectName(focus)} object; once is enough.`;
 }
 
 /** Show how signs and movement look. */

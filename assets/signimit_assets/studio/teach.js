@@ -11,6 +11,7 @@ import { change, demonstration, path, people, refresh, store, subscribe } from "
 import { TeachTable } from "./teachtable.js";
 
 const MEANT = "With these two signs you asked for something else. Draw the movement that you meant, about the object that you meant.";
+const ENOUGH = 12; // demonstrations in made-up signs, after which it is worth while to ask
 const SHOW_SPEED = 4; // times as fast as it was drawn
 
 export class Teach {
@@ -85,7 +86,10 @@ export class Teach {
     const { drawn } = this.draft;
     this.mine = false;
     this.pads.forEach((pad, i) => pad.put(drawn[SIGNS[i]] ?? signs[i]));
-    this.table.open(scene, picture, drawn[HAND] ? (drawn[HAND][0] ?? null) : hand);
+    const opened = this.table.open(scene, picture, drawn[HAND] ? (drawn[HAND][0] ?? null) : hand);
+    const { demonstrations, next } = store.session;
+    const first = !demonstrations.length && next.prompt && !Object.keys(drawn).length;
+    if (first) opened.then(() => store.session.next === next && this.showHow(next.prompt));
     this.tell();
     this.continue();
   }
@@ -132,10 +136,18 @@ export class Teach {
     const prompt = old === null ? (this.wish ?? session.next.prompt) : null;
     byId("teach-prompt").textContent = sentence(session, prompt, old);
     byId("teach-examples").replaceChildren(...examples(prompt, this.wish !== null));
-    const all = old === null && !this.wish && session.next.prompt && session.next.left === 0;
+    const shown = session.next.prompt ? session.next.left === 0 : session.demonstrations.length >= ENOUGH;
+    const all = old === null && !this.wish && shown;
     const choices = this.wish ? [button("Back to the list", () => this.follow(null))] : [];
+    if (prompt?.drawing) choices.push(button("Show me", () => this.showHow(prompt), { id: "show-me", disabled: this.table.hand !== null }));
     if (all) choices.push(button("Ask the arm now", () => byId("tab-ask").click(), { id: "go-ask" }));
     byId("teach-choices").replaceChildren(...choices);
+  }
+
+  /** Show on the table what counts of a movement, unless something is drawn or played there. */
+  showHow({ drawing, focus }) {
+    if (this.table.hand || this.table.drawing || this.playing) return undefined;
+    return this.table.show(drawing, store.session.next.scene.objects[focus]);
   }
 
   /** Demonstrate what the robot would like to see. */

@@ -3,13 +3,19 @@
 import { blob } from "./api.js";
 import { byId, make, showError } from "./dom.js";
 import { playing } from "./pad.js";
-import { Recording, TOO_LONG, distance, followPointer } from "./pen.js";
+import { Recording, TOO_LONG, between, distance, followPointer } from "./pen.js";
 import { Stage, drawHand, drawLetters, drawObjects, drawPath } from "./stage.js";
 import { store } from "./store.js";
 
 const NEAR = 0.06; // m, from the hand's place; what begins there begins at the hand
 const FINGER = 28; // CSS pixels, the same for fingers on small screens
 const LEAST = 0.02; // m; what reaches less far was a tap
+const SHOWN_SIZE = 0.08; // m, half of a movement that is shown
+const SHOWN_STEPS = 20; // on the way to where it begins
+const SHOWN_PACE = 0.03; // s, from point to point
+const SHOWN_REST = 2500; // ms, in which what was shown stays
+const SHOWN_INK = "#6b2185";
+const SHOWN = "So it counts: once about the object, then the hand rests.";
 const HINT = "Begin at the hand, the yellow dot; begun elsewhere, it starts there.";
 
 export class TeachTable {
@@ -23,6 +29,7 @@ export class TeachTable {
     this.stage = new Stage(host, "The table with its objects; draw the movement here");
     this.scene = null;
     this.hand = null;
+    this.shown = null; // the way of a hand that shows what counts
     this.drawing = null;
     this.played = false; // whether built-in people are drawing
     this.turn = 0;
@@ -36,7 +43,7 @@ export class TeachTable {
 
   /** Show a scene, {objects, hand}, its picture, and the movement that is drawn already, or null. */
   async open(scene, picture, hand) {
-    this.turn += 1;
+    this.take();
     this.drawing = null;
     [this.scene, this.hand] = [scene, hand];
     this.hint(HINT);
@@ -58,8 +65,35 @@ export class TeachTable {
 
   /** Show another movement, or none, on the same table. */
   put(hand) {
-    this.turn += 1;
+    this.take();
     this.hand = hand;
+    this.stage.paint();
+  }
+
+  /** Stop what is played or shown: the table is needed. */
+  take() {
+    this.turn += 1;
+    this.shown = null;
+  }
+
+  /** Show what counts: a hand goes to where a movement, points within -1..1, begins, makes it once about a place, and rests. */
+  async show(movement, [x, y]) {
+    this.take();
+    const { turn } = this;
+    const once = movement.map(([u, v]) => [x + SHOWN_SIZE * u, y + SHOWN_SIZE * v]);
+    const way = Array.from({ length: SHOWN_STEPS }, (_, i) => between(this.scene.hand, once[0], i / SHOWN_STEPS));
+    const points = [...way, ...once];
+    this.hint(SHOWN);
+    await playing(points.map((_, i) => i * SHOWN_PACE), (count) => {
+      if (turn !== this.turn) return false;
+      this.shown = points.slice(0, count);
+      this.stage.paint();
+      return true;
+    }, 1);
+    await new Promise((done) => setTimeout(done, SHOWN_REST));
+    if (turn !== this.turn) return;
+    this.shown = null;
+    this.hint(HINT);
     this.stage.paint();
   }
 
@@ -69,13 +103,16 @@ export class TeachTable {
     drawLetters(pen, this.scene.objects);
     const made = this.drawing ?? this.hand;
     if (made) drawPath(pen, made.points);
+    if (this.shown) drawPath(pen, this.shown, "table", SHOWN_INK);
+    if (this.shown?.length) return drawHand(pen, this.shown.at(-1));
     drawHand(pen, this.drawing || this.played ? made.points.at(-1) : (made?.points[0] ?? this.scene.hand));
+    return undefined;
   }
 
   begin(at) {
     if (!this.free() || !this.scene || this.stage.waiting) return false;
     const near = Math.max(NEAR, FINGER * this.stage.pixel);
-    this.turn += 1;
+    this.take();
     this.drawing = new Recording();
     if (distance(this.stage.metres(at), this.scene.hand) <= near) this.drawing.add(this.scene.hand, at.time - 0.01);
     this.move(at);
@@ -107,7 +144,7 @@ export class TeachTable {
 
   /** Play a movement that was drawn elsewhere, in time; resolves with whether it came to its end. */
   async play(stroke, speed) {
-    this.turn += 1;
+    this.take();
     const { turn } = this;
     await playing(stroke.times, (count) => {
       if (turn !== this.turn) return false;

@@ -140,7 +140,8 @@ def test_a_deleted_demonstration_is_asked_for_again() -> None:
 
 def test_the_prompt_names_the_signs_in_the_order_they_are_made() -> None:
     request = Request(2, 0)
-    assert prompt_text(LANGUAGES["paper"], request) == "Sign 1, then 6. Then draw a circle about the red object."
+    told = "Sign 1, then 6. Then draw a circle about the red object; once is enough."
+    assert prompt_text(LANGUAGES["paper"], request) == told
     assert sign_labels(LANGUAGES["movement first"], request) == ("6", "1")
 
 

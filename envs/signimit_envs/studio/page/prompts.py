@@ -78,7 +78,8 @@ def sign_labels(language: Language, request: Request) -> tuple[str, str]:
 
 
 def prompt_text(language: Language, request: Request) -> str:
-    """Say what to draw, e.g. "Sign 1, then 6. Then draw a circle about the red object."."""
+    """Say what to draw, e.g. "Sign 1, then 6. Then draw a circle about the red object; once is enough."."""
     first, second = sign_labels(language, request)
     movement = language.movements[request.movement]
-    return f"Sign {first}, then {second}. Then draw a {movement} about the {object_name(request.focus)} object."
+    about = f"about the {object_name(request.focus)} object; once is enough."
+    return f"Sign {first}, then {second}. Then draw a {movement} {about}"
