@@ -37,7 +37,7 @@ interpreter() { "$1" -c 'import sys; print(sys.base_prefix, sys.version)' 2>/dev
 wanted_stamp() {
     interpreter "$1"
     printf '%s\n' "$root"
-    cksum <"$root/pyproject.toml"
+    cat "$root/pyproject.toml" "$root/signimit/__init__.py" | cksum # the latter has the version
 }
 
 can_apt() { [ "$(id -u)" -eq 0 ] && command -v apt-get >/dev/null 2>&1; }

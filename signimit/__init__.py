@@ -92,7 +92,7 @@ from signimit.strokes import Stroke, StrokeLibrary
 from signimit.teaching import PAPER_LANGUAGE, GroundTruth, Language, compose_demonstrations
 from signimit.teaching.people import synthetic_library
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 __all__ = [  # noqa: RUF022 -- in the order of the paper
     # II-A: what is shown
     "Demonstration", "DemonstrationSet", "Stroke", "StrokeLibrary", "SignSpace", "dtw_distance", "normalised_sign",

@@ -1,15 +1,15 @@
-"""The command line: ``python -m signimit COMMAND``, one module a command.
+"""The command line: ``signimit COMMAND``, or ``python -m signimit COMMAND``; one module a command.
 
 A module has a function ``main``, or ``SUBCOMMANDS``, functions by name. The signature of a function gives its options
 and its docstring the help. Only the module of the command that was asked for is imported, so that an extra is missed
-only where it is needed.
+only where it is needed; a shell's completion alone needs them all.
 """
 
 from __future__ import annotations
 
 import importlib
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import signimit
 from signimit.exceptions import UnknownNameError
@@ -37,6 +37,7 @@ COMMANDS = {
     "doctor": "what works on this machine, and the line that mends the rest",
 }
 _HELP = {"-h", "--help"}
+_COMPLETION = {"--tyro-print-completion", "--tyro-write-completion"}
 
 
 def main(argv: Sequence[str] | None = None) -> None:
@@ -49,6 +50,9 @@ def main(argv: Sequence[str] | None = None) -> None:
     if name in (*_HELP, "--version"):
         with exit_codes("signimit", [name]):
             print(f"signimit {signimit.__version__}" if name == "--version" else _overview())
+    elif name in _COMPLETION:
+        with exit_codes("signimit", [name, *arguments]):
+            call_with_options({command: _load(command) for command in COMMANDS}, [name, *arguments], "signimit")
     elif not name:
         sys.stderr.write(f"{_overview()}\n")
         sys.exit(BAD_INPUT)
@@ -62,7 +66,7 @@ def run_command(name: str, arguments: Sequence[str]) -> None:
         if name not in COMMANDS:
             raise UnknownNameError("command", name, COMMANDS)
         try:
-            module = importlib.import_module(f"signimit_envs.cli.{name.replace('-', '_')}")
+            command = _load(name)
             if _HELP & set(arguments):
                 importlib.import_module("tyro")
         except ImportError:
@@ -70,9 +74,18 @@ def run_command(name: str, arguments: Sequence[str]) -> None:
                 raise
             print(plain_help(name, arguments), end="")  # what a command needs is not needed to say what it does
             return
-        call_with_options(getattr(module, "SUBCOMMANDS", None) or module.main, arguments, f"signimit {name}")
+        call_with_options(command, arguments, f"signimit {name}")
+
+
+def _load(name: str) -> Callable[..., None] | dict[str, Callable[..., None]]:
+    """Import the module of a command, and return its function, or its subcommands by name."""
+    module = importlib.import_module(f"signimit_envs.cli.{name.replace('-', '_')}")
+    found: Callable[..., None] | dict[str, Callable[..., None]] = getattr(module, "SUBCOMMANDS", None) or module.main
+    return found
 
 
 def _overview() -> str:
     commands = "\n".join(f"  {name:20s} {what}" for name, what in COMMANDS.items())
-    return f"usage: python -m signimit COMMAND [options]; COMMAND --help says more\n\n{commands}"
+    usage = "usage: signimit COMMAND [options], or python -m signimit COMMAND [options]; COMMAND --help says more"
+    completion = "signimit --tyro-print-completion bash (or zsh, fish, tcsh) prints what completes commands in a shell"
+    return f"{usage}\n\n{commands}\n\n{completion}"

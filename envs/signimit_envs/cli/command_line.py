@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from pathlib import Path
 from types import FrameType
+from typing import Annotated, Any, Union
 
 from signimit.exceptions import InvalidInputError, MissingDependencyError, SignimitError
 
@@ -20,6 +21,7 @@ BAD_INPUT = 2
 PIPE_CLOSED = 141  # what a shell reports of a program that SIGPIPE ended
 INTERRUPTED = 130  # and of one that SIGINT ended
 _SCRIPT_PACKAGES = ("matplotlib", "tqdm", "tyro")
+_EXTRAS = {"studio": "studio", "study": "study", "train": "scripts,rl"}  # with these packages, and more that is needed
 _running: ContextVar[tuple[str, ...]] = ContextVar("_running", default=())
 
 
@@ -50,7 +52,7 @@ def exit_codes(name: str, argv: Sequence[str]) -> Iterator[None]:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or Python complains when it flushes at exit
         sys.exit(PIPE_CLOSED)
     except (SignimitError, OSError, ModuleNotFoundError) as error:
-        sys.stderr.write(f"{name}: {error_sentence(error)}\n")
+        sys.stderr.write(f"{name}: {error_sentence(error, _EXTRAS.get(name, 'scripts'))}\n")
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.stderr.write("\nstopped\n")
@@ -93,13 +95,15 @@ def check_output_folder(folder: Path) -> None:
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(near))
 
 
-def call_with_options(
-    command: Callable[..., None] | Mapping[str, Callable[..., None]], argv: Sequence[str], program: str
-) -> None:
+Command = Callable[..., None] | Mapping[str, "Command"]
+"""A function, whose signature gives the options and whose docstring the help, or one for each subcommand."""
+
+
+def call_with_options(command: Command, argv: Sequence[str], program: str) -> None:
     """Parse arguments into those of a function, and call it.
 
     Args:
-        command: A function, whose signature gives the options and whose docstring the help, or one for each subcommand.
+        command: The function, or one for each subcommand.
         argv: Arguments as they were typed.
         program: What the help calls the program.
     """
@@ -109,23 +113,41 @@ def call_with_options(
     import tyro
 
     config = (tyro.conf.OmitArgPrefixes,)  # of a group of options only the options are typed
+    tyro.cli(_parsed_as(command), args=argv, prog=program, config=config)
+
+
+def _parsed_as(command: Command) -> Any:
+    """Return what tyro parses into a call of a command: of several the one that is named."""
+    import tyro
+
     if callable(command):
-        tyro.cli(command, args=argv, prog=program, config=config)
-    else:
-        tyro.extras.subcommand_cli_from_dict(dict(command), args=argv, prog=program, config=config)
+        return command
+    choices: list[Any] = []
+    for name, inner in command.items():
+        if callable(inner):
+            choices.append(Annotated[Any, tyro.conf.subcommand(name, constructor=inner)])
+        else:
+            choices.append(Annotated[_parsed_as(inner), tyro.conf.subcommand(name)])
+    one_of: Any = Union
+    return one_of[*choices, Annotated[None, tyro.conf.Suppress]]  # a union of one would not be a choice
 
 
 def _exit_on_signal(number: int, frame: FrameType | None) -> None:
     sys.exit(128 + number)
 
 
-def error_sentence(error: Exception) -> str:
-    """Say in one sentence what was wrong; a missing package that is not ours to name is a bug, not bad input."""
+def error_sentence(error: Exception, extra: str = "scripts") -> str:
+    """Say in one sentence what was wrong; a missing package that is not ours to name is a bug, not bad input.
+
+    Args:
+        error: What was raised.
+        extra: The extra that installs what every command needs.
+    """
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."
     if isinstance(error, ModuleNotFoundError) and not isinstance(error, SignimitError):
         package = (error.name or "").partition(".")[0]
         if package not in _SCRIPT_PACKAGES:
             raise error
-        return str(MissingDependencyError(package, "scripts", "This program"))
+        return str(MissingDependencyError(package, extra, "This program"))
     return str(error)

@@ -60,6 +60,12 @@ def test_a_missing_package_comes_with_the_line_that_installs_it(
     assert complaint(command, capsys) == f"name: This program needs {package}: {hint}.\n"
 
 
+def test_the_line_that_installs_names_all_that_the_command_needs(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit), exit_codes("studio", []):
+        raise ModuleNotFoundError("no", name="tyro")
+    assert "pip install 'signimit[studio]'" in capsys.readouterr().err
+
+
 def test_a_bug_is_not_taken_for_bad_input() -> None:
     with pytest.raises(ModuleNotFoundError), exit_codes("name", []):
         raise ModuleNotFoundError("no", name="signimit.nonsense")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterable
@@ -153,6 +154,24 @@ def test_an_unknown_command_gets_the_known_ones(capsys: pytest.CaptureFixture[st
         main(["obey"])
     assert stop.value.code == 2
     assert capsys.readouterr().err.startswith("obey: Unknown command 'obey'; known are reproduce, ")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
+def test_a_shell_completes_commands_subcommands_and_options(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    with pytest.raises(SystemExit) as stop:
+        main(["--tyro-print-completion", "bash"])
+    assert not stop.value.code
+    (tmp_path / "completion").write_text(capsys.readouterr().out, encoding="utf-8")
+
+    def completed(*words: str) -> list[str]:
+        script = f"COMP_WORDS=({' '.join(words)} ''); COMP_CWORD={len(words)}; . ./completion; _tyro_signimit"
+        command = ["bash", "-c", f'{script}; printf "%s\\n" "${{COMPREPLY[@]}}"']
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True).stdout.split()
+
+    assert set(COMMANDS) <= set(completed("signimit"))
+    assert {"make", "readme"} <= set(completed("signimit", "results"))
+    assert {"--seed", "--attempts"} <= set(completed("signimit", "reproduce"))
 
 
 def test_the_package_is_a_program() -> None:
