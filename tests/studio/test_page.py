@@ -207,12 +207,11 @@ def test_a_session_is_looked_at_exported_imported_and_merged(
     page.locator(".matrix").hover(position={"x": 200, "y": 10})
     visitor.see("#matrix-told", "/ rad²")
     page.locator("#look-figures details[open] img").wait_for()
-    page.locator("#look-figures details[open] a").first.focus()
-    with page.expect_popup() as opened:
-        page.keyboard.press("Enter")
-    opened.value.locator("img").wait_for()
-    assert opened.value.url.endswith("/figures/4.png")
-    opened.value.close()
+    page.locator("#look-figures details[open] .enlarge").focus()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("dialog").get_by_role("img", name="Figure 4")).to_be_visible()
+    page.keyboard.press("Escape")
+    expect(page.get_by_role("dialog")).to_have_count(0)
     page.locator("#replay-choice").select_option("demonstrations/3")
     visitor.see("#replay-sentence", "Understood: movement")
 

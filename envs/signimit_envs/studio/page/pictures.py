@@ -19,6 +19,7 @@ from signimit.similarity import maximum_similarities, policy_distances, policy_s
 from signimit_envs.sessions.session import ArmAnswer
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page.belief import understood_text
+from signimit_envs.studio.page.dark_figures import darken_figure
 from signimit_envs.studio.store.events import DrawnDemonstration
 from signimit_envs.studio.store.history import Answer
 from signimit_envs.video.films import film_shots
@@ -58,7 +59,9 @@ class FigureCache:
         return found
 
 
-def draw_figure(number: int, suffix: str, model: ImitationModel, answers: Sequence[tuple[Answer, Track]]) -> bytes:
+def draw_figure(
+    number: int, suffix: str, model: ImitationModel, answers: Sequence[tuple[Answer, Track]], look: str = "light"
+) -> bytes:
     """Draw one of the paper's figures 4 to 7.
 
     Args:
@@ -66,6 +69,7 @@ def draw_figure(number: int, suffix: str, model: ImitationModel, answers: Sequen
         suffix: ``"png"`` or ``"svg"``.
         model: What was learned.
         answers: What the arm was asked, and what it did; for figure 7.
+        look: ``"light"``, as on paper, or ``"dark"``.
 
     Returns:
         The file's bytes.
@@ -89,6 +93,8 @@ def draw_figure(number: int, suffix: str, model: ImitationModel, answers: Sequen
             figure = figures.draw_similarities(policy_similarities(distances), model.labels)
         else:
             figure = figures.draw_maximum_similarity(maximum_similarities(distances), model.labels)
+    if look == "dark":
+        darken_figure(figure)
     file = io.BytesIO()
     figure.savefig(file, format=suffix, dpi=DOTS_PER_INCH)
     return file.getvalue()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
@@ -9,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from signimit import Demonstration, DemonstrationSet, InvalidInputError, Stroke
 from signimit_envs.studio.limits import LIMITS
@@ -48,7 +50,7 @@ def test_a_figure_is_drawn_again_only_when_the_demonstrations_have_changed(
 ) -> None:
     drawn: list[int] = []
 
-    def draw(number: int, suffix: str, model: Any, answers: Any) -> bytes:
+    def draw(number: int, suffix: str, model: Any, answers: Any, look: str) -> bytes:
         drawn.append(len(model.demonstrations))
         return b"%d" % len(drawn)
 
@@ -128,6 +130,19 @@ def test_demonstrations_of_no_movement_are_compared_last() -> None:
     found = similarities_json(model)  # type: ignore[arg-type]
     assert found["order"] == [2, 1, 0, 3]
     assert found["labels"] == [-1, 1, 0, -1]
+
+
+def test_a_figure_for_a_dark_page_is_dark_and_no_less_is_seen_in_it() -> None:
+    pytest.importorskip("matplotlib", reason="figures need signimit[scripts]")
+    shown = DemonstrationSet([_drawn(20).demonstration] * 2)
+    model: Any = SimpleNamespace(demonstrations=shown, labels=np.zeros(2, int), focus=np.zeros(2, int))
+    light, dark = (
+        np.asarray(Image.open(io.BytesIO(draw_figure(4, "png", model, (), look))).convert("L"), float)
+        for look in ("light", "dark")
+    )
+    assert np.median(light) > 250
+    assert np.median(dark) < 40
+    assert np.mean(np.abs(dark - np.median(dark)) > 60) > 0.7 * np.mean(np.abs(light - np.median(light)) > 60)
 
 
 def test_a_track_that_does_not_fit_its_answer_is_told_in_a_sentence() -> None:

@@ -18,18 +18,22 @@ routes = APIRouter(prefix="/api/sessions/{session_id}", tags=["look"])
 
 @routes.get("/figures/{number}.{suffix}")
 async def figure(
-    studio: TheStudio, session_id: SessionId, number: FigureNumber, suffix: Literal["png", "svg"]
+    studio: TheStudio,
+    session_id: SessionId,
+    number: FigureNumber,
+    suffix: Literal["png", "svg"],
+    look: Literal["light", "dark"] = "light",
 ) -> Response:
     """Draw one of the paper's figures 4 to 7."""
     session = await studio.open(session_id)
     model, answers = session.model, session.history.answers
-    key = session.name, session.history.revision, number, suffix
+    key = session.name, session.history.revision, number, suffix, look
     if known := studio.figures.find(key):
         return Response(known, media_type=MEDIA[suffix])
 
     def draw() -> bytes:
         tracks = [studio.store.read_track(session.name, n) if number == 7 else [] for n in range(len(answers))]
-        return draw_figure(number, suffix, model, list(zip(answers, tracks, strict=True)))
+        return draw_figure(number, suffix, model, list(zip(answers, tracks, strict=True)), look)
 
     lasting = number != 7  # the arm goes on drawing at the same revision
     drawn = await studio.render((lambda: studio.figures.find_or_draw(key, draw)) if lasting else draw)
