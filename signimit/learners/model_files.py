@@ -100,6 +100,8 @@ def _checked_understanding(arrays: dict[str, NDArray[Any]], demos: Demonstration
     if set(Belief._fields) <= known.keys():
         named = zip(Belief._fields, shapes, strict=True)
         belief = Belief(*(float_array(known[name], name.replace("_", " "), shape) for name, shape in named))
+        if not np.isfinite(belief.word_order_evidence).any():
+            raise InvalidInputError("word order evidence", "a number of at least one word order", "none")
     evidence = learner.restore_evidence(demos, known)
     asked = trust = None
     if {"asked_movement", "asked_focus", "trust"} <= arrays.keys():

@@ -49,6 +49,16 @@ def test_a_model_whose_reasons_are_broken_is_refused_when_it_is_loaded(
         ImitationModel.load(tmp_path / "broken.npz")
 
 
+def test_a_model_without_any_possible_word_order_is_refused(model: ImitationModel, tmp_path: Path) -> None:
+    model.save(tmp_path / "model.npz")
+    with np.load(tmp_path / "model.npz") as file:
+        arrays = dict(file)
+    arrays["diagnostics__word_order_evidence"][:] = -np.inf
+    np.savez(tmp_path / "broken.npz", **arrays)
+    with pytest.raises(FileFormatError, match="word order evidence: expected a number of at least one word order"):
+        ImitationModel.load(tmp_path / "broken.npz")
+
+
 @pytest.mark.parametrize("path", OLD_MODELS, ids=lambda path: path.stem)
 def test_a_model_of_version_0_1_0_trusts_everybody_and_has_a_sign_for_each_meaning(path: Path) -> None:
     old = ImitationModel.load(path)
