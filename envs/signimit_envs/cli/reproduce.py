@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import json
+from concurrent.futures import Future
+from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+from signimit.benchmark.workers import SessionProcesses
 from signimit.io.safe_files import whole_files
 from signimit.learners import DEFAULT_METHOD
 from signimit.policies import DEFAULT_POLICY
@@ -52,33 +55,42 @@ def main(
     from signimit_envs.sessions.figures import write_figures
 
     ours = SessionPlan(method=method, policy=policy, seed=seed, attempts=attempts, seconds=seconds)
-    plans = {"the paper": ours.as_in_paper(), "ours": ours}
     chosen = people.choose(ours.language, np.random.default_rng([seed, 1]))
     print(f"Session {seed}. The signs are made by {chosen.names[0]}, the movements by {chosen.names[1]}.")
     session = ours.compose(chosen)
-    with whole_files(out) as folder:
-        results = {
-            name: run_session(plan, session, partial(tqdm, desc=f"obeying, {name}", unit="command"))
-            for name, plan in plans.items()
-        }
-        for name, result in results.items():
-            print(f"\n{name.capitalize()}: {result.model.summary()}")
-        print(f"\n{session_table(results)}\n\n{restarts_line(results['the paper'])}\n")
+
+    def obey(name: str, plan: SessionPlan) -> SessionResult:
+        result = run_session(plan, session, partial(tqdm, desc=f"obeying, {name}", unit="command"))
+        print(f"\n{name.capitalize()}: {result.model.summary()}", flush=True)
+        return result
+
+    with whole_files(out) as folder, ExitStack() as stack:
+        our_result, films = obey("ours", ours), dict[str, Future[None]]()
+        if video:  # filming takes longest, so processes of their own begin while the paper's imitator is at work
+            processes = stack.enter_context(SessionProcesses(len(FILMS)))
+            films = {name: processes.submit(write_film, name, our_result, folder) for name in FILMS}
+        results = {"the paper": obey("the paper", ours.as_in_paper()), "ours": our_result}
+        print(f"\n{session_table(results)}\n\n{restarts_line(results['the paper'])}\n", flush=True)
         text = json.dumps(session_report(results, chosen), indent=1, allow_nan=False)
         (folder / "results.json").write_text(text + "\n", encoding="utf-8")
         write_figures(results["the paper"], results["ours"], folder)
-        if video:
-            write_videos(results["ours"], folder)
+        try:
+            for name, film in films.items():
+                print(f"{name}.mp4 is being filmed.", flush=True)
+                film.result()
+        except RenderingError as error:
+            print(f"No videos. {error}")
     print(f"Results are in {out}.")
 
 
-def write_videos(result: SessionResult, folder: Path) -> None:
-    """Write grid.mp4 and story.mp4; say so and go on where there is no OpenGL."""
-    from tqdm import tqdm
+FILMS = {"story": film_story, "grid": film_grid}
+"""Films of a session, by the name of their file."""
 
-    try:
-        for name, film in (("grid", film_grid(result)), ("story", film_story(result))):
-            frames = tqdm(film.frames, f"filming {name}.mp4", film.length, unit="frame")
-            write_video(folder / f"{name}.mp4", frames, FRAME_RATE)
-    except RenderingError as error:
-        print(f"No videos. {error}")
+
+def write_film(name: str, result: SessionResult, folder: Path) -> None:
+    """Write a film of a session.
+
+    Raises:
+        RenderingError: If there is no OpenGL.
+    """
+    write_video(folder / f"{name}.mp4", FILMS[name](result).frames, FRAME_RATE)
