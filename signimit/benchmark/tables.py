@@ -101,8 +101,8 @@ they are told what no learner is told. All rows were judged by one judge, {judge
 
 {markdown_table((*columns, "code"), facts)}
 
-Demonstrations are a session's, on average. Hours are of two processors. The code is that of the entry's own file, or of
-signimit where the entry is part of it; it is not compared.
+Demonstrations are a session's, on average. Hours are of two processors. The code is that of the entry's own file or
+package, or of signimit where the entry is part of it; it is not compared.
 
 ## Stage by stage, with 95 % intervals
 

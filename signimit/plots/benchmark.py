@@ -46,8 +46,9 @@ def draw_results(summaries: Sequence[Summary]) -> Figure:
         panel.grid(axis="x", color="#dddddd", lw=0.6)
         for side in ("top", "right"):
             panel.spines[side].set_visible(False)
-    for panel in panels.flat[len(names) :]:
-        panel.remove()
+    for number in range(len(names), panels.size):
+        panels.flat[number].remove()
+        panels.flat[number - COLUMNS].tick_params(axis="x", labelbottom=True)  # now the lowest of its column
     figure.supxlabel("commands obeyed, with 95 % intervals", fontsize=9)
     return figure
 

@@ -117,6 +117,19 @@ def test_a_measurement_is_published_when_it_is_complete(
     assert (tmp_path / "out" / "results" / "cost" / "board" / "chance.jsonl").is_file()  # to go on from
 
 
+def test_rows_of_learners_that_are_gone_stay_when_the_others_are_made_again(
+    run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("tyro", reason="commands need tyro")
+    monkeypatch.chdir(tmp_path)
+    kept = tmp_path / "results" / "benchmark" / "earlier"
+    shutil.copytree(RESULTS / "benchmark" / "earlier", kept)
+    monkeypatch.setitem(results.MEASUREMENTS, "benchmark", ("benchmark table --out {out}/benchmark",))
+    run("results", "make", "benchmark")
+    assert "| joint_0_1_0:Joint | **" in (kept.parent / "README.md").read_text()
+    assert {file.suffix for file in kept.iterdir()} == {".json", ".jsonl"}
+
+
 def test_what_cannot_be_made_is_told_before_anything_is_run(
     run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
