@@ -72,7 +72,7 @@ def test_a_wrong_answer_leads_to_a_demonstration_of_what_was_meant(
     visitor.page.locator(".handle").nth(2).wait_for()
     person.speak(visitor, "ask", {"movement": 1, "focus": 1})
     visitor.see("#ask-answers", "1. Movement")
-    visitor.page.get_by_role("button", name="Wrong").click()
+    visitor.page.get_by_role("button", name="Wrong", exact=True).click()
     visitor.page.get_by_role("button", name="Show what I meant").click()
     visitor.see("#teach-missing", "Still to draw: the movement.")
     visitor.see("#teach-prompt", "you asked for something else")

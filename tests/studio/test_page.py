@@ -186,6 +186,34 @@ def test_everything_is_reached_with_the_keyboard_and_built_in_people_play(
     assert visitor.session()["answers"][0]["request"] == {"movement": 0, "focus": 0}
 
 
+def test_a_demonstration_is_drawn_with_the_keyboard(
+    visit: Visit, new_session: NewSession, in_picture: Callable[..., Any]
+) -> None:
+    visitor = visit()
+    visitor.open("teach", new_session())
+    visitor.page.locator("#teach-stage .stage:not(.waiting)").wait_for()
+    keyboard = visitor.page.keyboard
+    strokes = (["ArrowRight", "ArrowUp"], ["ArrowDown", "ArrowLeft"], ["ArrowUp", "ArrowRight", "ArrowDown"])
+    for wanted, keys in zip(("CANVAS.pad-canvas", "CANVAS.pad-canvas", "CANVAS.sheet"), strokes, strict=True):
+        press_tab_until(visitor, wanted)
+        keyboard.press("Enter")
+        for key in keys:
+            for _ in range(4):
+                keyboard.press(key)
+        keyboard.press("Enter")
+    press_tab_until(visitor, "BUTTON#teach-it")
+    scene = visitor.session()["next"]["scene"]
+    keyboard.press("Enter")
+    visitor.see("#teach-count", "Demonstration 2")
+    drawn = visitor.api(f"sessions/{visitor.session()['id']}/demonstrations/0")
+    assert np.ptp(drawn["signs"][0]["points"], axis=0) == pytest.approx([8 / 24, 8 / 24])
+    hand = np.array(drawn["hand"]["points"])
+    np.testing.assert_allclose(hand[0], scene["hand"], atol=1e-6)
+    shares = in_picture(visitor.api("studio")["picture"], hand)
+    np.testing.assert_allclose(shares[-1] - shares[0], [4 / 64, 0], atol=1e-6)
+    assert (np.diff(drawn["hand"]["times"]) > 0).all()
+
+
 def press_tab_until(visitor: Any, wanted: str) -> None:
     for _ in range(60):
         visitor.page.keyboard.press("Tab")

@@ -75,6 +75,20 @@ def test_every_view_fits_its_window_and_can_be_read(device: str, visit: Any, new
             keep(visitor.page, f"studio-{view}-{device if device == 'phone' else look}.png")
 
 
+def test_no_view_has_a_serious_fault_for_screen_readers(visit: Any, new_session: Callable[..., str]) -> None:
+    axe = pytest.importorskip("axe_playwright_python.base", reason="needs axe-playwright-python (signimit[test])")
+    visitor = visit(viewport={"width": 1280, "height": 860})
+    visitor.open("teach", new_session(2))
+    visitor.page.evaluate(axe.AXE_SCRIPT)
+    for view, ready in READY.items():
+        visitor.page.locator(f"#tab-{view}").click()
+        if view == "ask":
+            visitor.page.locator("#ask-for-it").click()
+        visitor.page.locator(ready).first.wait_for()
+        found = visitor.page.evaluate("async () => (await axe.run()).violations")
+        assert [fault["help"] for fault in found if fault["impact"] in ("serious", "critical")] == [], view
+
+
 def channels(colour: str) -> list[int]:
     """Return red, green and blue of a colour as the browser writes it."""
     return [int(part) for part in colour.removeprefix("rgb(").removesuffix(")").split(",")]

@@ -1,8 +1,9 @@
 /** Ask: two signs, and the arm answers on the physics, while it is watched, dragged about and shoved. */
 
 import * as api from "./api.js";
+import { answersList } from "./answers.js";
 import { AskTable } from "./asktable.js";
-import { attempt, button, byId, capital, make, percent } from "./dom.js";
+import { attempt, button, byId, capital, make } from "./dom.js";
 import { SignPad, fitted } from "./pad.js";
 import { thumbPicture } from "./pictures.js";
 import { QUESTION } from "./draft.js";
@@ -37,6 +38,7 @@ export class Ask {
     this.table = new AskTable(byId("ask-stage"), live, (header) => this.framed(header));
     this.pads = [1, 2].map((number) => new SignPad(number, (byHand) => this.signed(number, byHand), () => this.started(number)));
     byId("ask-pads").append(...this.pads.map((pad) => pad.element));
+    this.pads[1].canvas.addEventListener("keydown", () => this.lifted && this.await());
     byId("ask-actions").append(
       button("New scene", () => this.newScene(), { id: "new-scene" }),
       button("Shove the hand", () => this.table.shoveAnywhere(), { id: "shove" }),
@@ -50,7 +52,7 @@ export class Ask {
     const other = before?.id !== session.id;
     if (other) {
       this.asked = null;
-      clearTimeout(this.lifted);
+      this.stopWaiting();
       this.pads.forEach((pad) => pad.clear(false));
       if (before && store.view === "ask") attempt(() => this.takeTable());
     }
@@ -95,17 +97,31 @@ export class Ask {
 
   /** A person puts the pen down: a first sign after an answer begins another utterance. */
   started(number) {
-    clearTimeout(this.lifted);
+    this.stopWaiting();
     this.request = null;
     if (number === 1 && this.pads[1].stroke) this.pads[1].clear(false);
   }
 
   /** A sign is drawn or cleared; the second one may have another stroke, so it is awaited before the arm is asked. */
   signed(number, byHand) {
-    if (byHand) clearTimeout(this.lifted);
+    if (byHand) this.stopWaiting();
     if (byHand && number === 1) this.keep(this.pads[0].parts);
     if (!byHand || number !== 2 || !this.pads.every((pad) => pad.stroke)) return;
-    this.lifted = setTimeout(() => this.ask(), LIFT);
+    this.await();
+  }
+
+  /** Ask when nothing more has come for a while: another stroke, or a key that moves the pen to one. */
+  await() {
+    this.stopWaiting();
+    this.lifted = setTimeout(() => {
+      this.lifted = null;
+      this.ask();
+    }, LIFT);
+  }
+
+  stopWaiting() {
+    clearTimeout(this.lifted);
+    this.lifted = null;
   }
 
   async ask() {
@@ -254,33 +270,7 @@ export class Ask {
   }
 
   showAnswers() {
-    const { answers, language } = store.session;
-    const rows = [...answers].reverse().slice(0, 50).map((answer) => {
-      const wanted = answer.request && language
-        ? `asked for: ${language.movements[answer.request.movement]} about ${objectName(answer.request.focus)}`
-        : "";
-      const waits = answer.held ? "· the arm asked back" : "";
-      const verdict = { true: "· judged right", false: "· judged wrong", null: "" }[String(answer.verdict)];
-      return make(
-        "li",
-        {},
-        make("span", {}, `${answer.number + 1}. ${capital(answer.text)} ${waits} ${verdict}`, make("span", { className: "quiet", textContent: wanted })),
-        answer.verdict === null && answer.number !== this.asked?.number
-          ? button("Wrong", () => this.judge(false, answer), { className: "plain", "aria-label": `Answer ${answer.number + 1} is wrong` })
-          : null,
-        answer.verdict === false
-          ? button("Correct", () => this.meant(answer.number), { className: "plain", "aria-label": `Correct answer ${answer.number + 1}` })
-          : null,
-        button("Replay", () => this.replay(answer.number), { className: "plain", "aria-label": `Replay answer ${answer.number + 1}` }),
-      );
-    });
-    const judged = answers.filter(({ verdict }) => verdict !== null);
-    const good = judged.filter(({ verdict }) => verdict).length;
-    const score = judged.length ? `${good} of ${judged.length} judged right (${percent(good / judged.length)})` : "";
-    byId("ask-answers").replaceChildren(
-      make("h3", { textContent: "Answers" }),
-      make("p", { className: "quiet", textContent: answers.length ? score : "None yet." }),
-      make("ul", { className: "answers plain-list" }, ...rows),
-    );
+    const listeners = { judge: (answer) => this.judge(false, answer), correct: (n) => this.meant(n), replay: (n) => this.replay(n) };
+    byId("ask-answers").replaceChildren(...answersList(store.session, listeners));
   }
 }

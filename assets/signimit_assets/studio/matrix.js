@@ -10,7 +10,7 @@ const WAYS = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDo
 export class Matrix {
   constructor() {
     this.frames = make("select", { id: "matrix-frames", onchange: () => this.paint() });
-    this.canvas = make("canvas", { className: "matrix", tabIndex: 0, role: "img", "aria-describedby": "matrix-told" });
+    this.canvas = make("canvas", { className: "matrix", tabIndex: 0, role: "img", "aria-label": "Similarities of the demonstrations", "aria-describedby": "matrix-told" });
     this.told = make("p", { id: "matrix-told", className: "told", "aria-live": "polite" });
     this.problem = make("p", { className: "quiet" });
     this.cell = null;

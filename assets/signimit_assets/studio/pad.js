@@ -1,11 +1,13 @@
 /** Pad: a square to draw one sign in, of one stroke or of several that are made without a pause. */
 
 import { button, calm, make, showError } from "./dom.js";
+import { KEYS_HELP, followKeys } from "./keypen.js";
 import { Recording, TOO_LONG, fewEnough, followPointer, joined, passed } from "./pen.js";
 
 const PAUSE = 1500; // ms; after a longer one a new stroke begins the sign again
 const LEAST = 0.1; // of half the pad; what reaches less far was a tap
 const FILL = 0.8; // of the pad, for strokes that others drew
+const KEYS = { step: 1 / 24, seconds: 0.04 };
 const PLAYBACK = 2; // times as fast as it was drawn
 
 /** Scale a stroke into the pad: y up, from -1 to 1. */
@@ -31,7 +33,8 @@ export class SignPad {
     this.lifted = -Infinity;
     this.playing = 0;
     const name = number === 1 ? "First sign" : "Second sign";
-    this.canvas = make("canvas", { className: "pad-canvas", role: "img", "aria-label": `${name}: empty` });
+    this.aimed = null; // where the keyboard's pen is, x and y from -1 to 1
+    this.canvas = make("canvas", { className: "pad-canvas", role: "application", tabIndex: 0, title: KEYS_HELP, "aria-label": `${name}: empty` });
     this.clearer = button("Clear", () => this.clear(), { className: "plain", "aria-label": `Clear the ${name.toLowerCase()}` });
     this.name = name;
     this.element = make(
@@ -40,12 +43,14 @@ export class SignPad {
       make("figcaption", {}, make("b", { textContent: String(number) }), ` ${name} `, this.clearer),
       this.canvas,
     );
-    followPointer(this.canvas, {
+    const hooks = {
       begin: (at) => this.begin(at),
       move: (at) => this.move(at),
       end: () => this.end(),
       cancel: () => this.cancel(),
-    });
+    };
+    followPointer(this.canvas, hooks);
+    followKeys(this.canvas, { ...hooks, home: () => [0.5, 0.5], aim: (at) => this.aim(at) }, KEYS);
     new ResizeObserver(() => this.paint()).observe(this.canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
     this.clear(false);
@@ -77,10 +82,20 @@ export class SignPad {
     this.move(at);
   }
 
-  move({ x, y, time }) {
-    const half = this.size / 2;
-    this.drawing.add([x / half - 1, 1 - y / half], time);
+  move(at) {
+    this.drawing.add(this.inPad(at, this.size), at.time);
     this.paint();
+  }
+
+  /** A pen on its way to another stroke is no pause. */
+  aim(at) {
+    this.aimed = at && this.inPad(at, this.canvas.getBoundingClientRect().width);
+    if (at && this.parts.length && performance.now() - this.lifted <= PAUSE) this.lifted = performance.now();
+    this.paint();
+  }
+
+  inPad({ x, y }, size) {
+    return [(2 * x) / size - 1, 1 - (2 * y) / size];
   }
 
   end() {
@@ -134,6 +149,11 @@ export class SignPad {
       for (const [x, y] of part.points) pen.lineTo(((x + 1) * size) / 2, ((1 - y) * size) / 2);
       pen.stroke();
     }
+    if (!this.aimed) return;
+    const [x, y] = this.aimed;
+    pen.beginPath();
+    pen.arc(((x + 1) * size) / 2, ((1 - y) * size) / 2, size / 30, 0, 2 * Math.PI);
+    pen.stroke();
   }
 }
 

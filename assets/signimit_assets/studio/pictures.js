@@ -62,7 +62,7 @@ export function scenePicture(shown, probability, label) {
   const rings = (probability ?? []).map((share, i) => (share >= LEAST_SHARE ? ring(places[i], share) : ""));
   return makeSvg(
     "svg",
-    { viewBox: "-52 -47 104 94", class: "scene", role: "img", "aria-label": label },
+    { viewBox: "-52 -47 104 94", class: "scene", ...(label ? { role: "img", "aria-label": label } : { "aria-hidden": "true" }) },
     makeSvg("rect", { x: -56, y: -50, width: 112, height: 100, class: "wood" }),
     ...places.flatMap(([u, v], i) => [shape(i, u, -v, 4.5), letter(i, u, -v + 1.8, 5)]),
     makeSvg("polyline", { points: path, class: "halo" }),

@@ -158,6 +158,18 @@ export function drawRing(pen, place, share) {
   }
 }
 
+/** Draw where the keyboard's pen is. */
+export function drawAim(pen, place) {
+  const [x, y] = toPixels(place);
+  for (const [width, style] of [[5, HALO], [2.5, INK]]) {
+    pen.beginPath();
+    pen.arc(x, y, 14, 0, 2 * Math.PI);
+    pen.lineWidth = width;
+    pen.strokeStyle = style;
+    pen.stroke();
+  }
+}
+
 /** Draw an arrow between two places, as strong as it is long. */
 export function drawArrow(pen, from, to) {
   const [[x, y], [u, v]] = [toPixels(from, "hand"), toPixels(to, "hand")];

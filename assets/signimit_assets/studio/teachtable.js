@@ -2,9 +2,10 @@
 
 import { blob } from "./api.js";
 import { byId, make, showError } from "./dom.js";
+import { KEYS_HELP, followKeys } from "./keypen.js";
 import { playing } from "./pad.js";
 import { Recording, TOO_LONG, between, distance, followPointer } from "./pen.js";
-import { Stage, drawHand, drawLetters, drawObjects, drawPath } from "./stage.js";
+import { Stage, drawAim, drawHand, drawLetters, drawObjects, drawPath, toPixels } from "./stage.js";
 import { store } from "./store.js";
 
 const NEAR = 0.06; // m, from the hand's place; what begins there begins at the hand
@@ -16,6 +17,7 @@ const SHOWN_PACE = 0.03; // s, from point to point
 const SHOWN_REST = 2500; // ms, in which what was shown stays
 const SHOWN_INK = "#6b2185";
 const SHOWN = "So it counts: once about the object, then the hand rests.";
+const KEYS = { step: 1 / 64, seconds: 0.06 };
 const HINT = "Begin at the hand, the yellow dot; begun elsewhere, it starts there.";
 
 export class TeachTable {
@@ -31,14 +33,20 @@ export class TeachTable {
     this.hand = null;
     this.shown = null; // the way of a hand that shows what counts
     this.drawing = null;
+    this.aimed = null; // where the keyboard's pen is
     this.played = false; // whether built-in people are drawing
     this.turn = 0;
-    followPointer(this.stage.sheet, {
+    const hooks = {
       begin: (at) => this.begin(at),
       move: (at) => this.move(at),
       end: () => this.end(),
       cancel: () => this.cancel(),
-    });
+    };
+    const { sheet } = this.stage;
+    sheet.setAttribute("role", "application");
+    Object.assign(sheet, { tabIndex: 0, title: KEYS_HELP });
+    followPointer(sheet, hooks);
+    followKeys(sheet, { ...hooks, home: () => this.home(), aim: (at) => this.aim(at) }, KEYS);
   }
 
   /** Show a scene, {objects, hand}, its picture, and the movement that is drawn already, or null. */
@@ -101,12 +109,24 @@ export class TeachTable {
     if (!this.scene) return;
     if (!this.stage.photographed) drawObjects(pen, this.scene.objects);
     drawLetters(pen, this.scene.objects);
+    if (this.aimed) drawAim(pen, this.aimed);
     const made = this.drawing ?? this.hand;
     if (made) drawPath(pen, made.points);
     if (this.shown) drawPath(pen, this.shown, "table", SHOWN_INK);
     if (this.shown?.length) return drawHand(pen, this.shown.at(-1));
     drawHand(pen, this.drawing || this.played ? made.points.at(-1) : (made?.points[0] ?? this.scene.hand));
     return undefined;
+  }
+
+  /** Where the keyboard's pen is at first: at the hand. */
+  home() {
+    const [x, y] = toPixels(this.scene?.hand ?? [0, 0]);
+    return [x / 640, y / 480];
+  }
+
+  aim(at) {
+    this.aimed = at && this.stage.metres(at);
+    this.stage.paint();
   }
 
   begin(at) {
