@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import ks_2samp
+from scipy import stats
 
 from signimit.benchmark.scoring import WORST
 from signimit.benchmark.studies.varied_demonstrations import rotation
@@ -116,7 +116,7 @@ def distance_to(real: Strangers, other: Strangers) -> dict[str, float]:
         measure: float(
             np.mean(
                 [
-                    ks_2samp(values, other.measured(measure)[label]).statistic
+                    stats.ks_2samp(values, other.measured(measure)[label]).statistic
                     for label, values in real.measured(measure).items()
                 ]
             )
