@@ -24,6 +24,8 @@ from signimit_envs.arm.batch import HandTracks as HandTracks
 from signimit_envs.arm.batch import reproduce_many as reproduce_many
 from signimit_envs.arm.scene import CONTROL_RATE as CONTROL_RATE
 from signimit_envs.exceptions import RenderingError as RenderingError
+from signimit_envs.sessions.episode import Episode as Episode
+from signimit_envs.sessions.episode import run_episode as run_episode
 from signimit_envs.sessions.reproduction import HandTrack as HandTrack
 from signimit_envs.sessions.reproduction import reproduce as reproduce
 from signimit_envs.tabletop.env import TabletopEnv as TabletopEnv
@@ -34,6 +36,7 @@ __all__ = [
     "CONTROL_RATE",
     "ENV_IDS",
     "EPISODE_SECONDS",
+    "Episode",
     "HandTrack",
     "HandTracks",
     "RecordMp4",
@@ -42,6 +45,7 @@ __all__ = [
     "TabletopHandEnv",
     "reproduce",
     "reproduce_many",
+    "run_episode",
 ]
 
 EPISODE_SECONDS = 12  # simulated time until an episode is truncated

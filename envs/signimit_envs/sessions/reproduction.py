@@ -52,10 +52,7 @@ def reproduce(
         InvalidInputError: If the environment is another one, the scene cannot be, or the policy commands what is not
             finite or not a velocity.
     """
-    arm = env.unwrapped
-    if not isinstance(arm, TabletopEnv) or arm.control != "hand":
-        found = f"control={arm.control!r}" if isinstance(arm, TabletopEnv) else type(arm).__name__
-        raise InvalidInputError("environment", "signimit/TabletopHand-v0, or control='hand'", found)
+    arm = hand_controlled(env)
     arm.reset(options={"objects": objects, "hand": hand})
     if each_step is not None:
         each_step()
@@ -73,3 +70,16 @@ def reproduce(
 
     path = run_policy(policy, arm.hand, seconds, step_arm)
     return HandTrack(path, np.array(commanded).reshape(-1, 2))
+
+
+def hand_controlled(env: gym.Env[Any, Any]) -> TabletopEnv:
+    """Return the environment behind all wrappers, whose actions are velocities of the hand.
+
+    Raises:
+        InvalidInputError: If it is another one.
+    """
+    arm = env.unwrapped
+    if not isinstance(arm, TabletopEnv) or arm.control != "hand":
+        found = f"control={arm.control!r}" if isinstance(arm, TabletopEnv) else type(arm).__name__
+        raise InvalidInputError("environment", "signimit/TabletopHand-v0, or control='hand'", found)
+    return arm
