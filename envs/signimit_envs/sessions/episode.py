@@ -51,8 +51,8 @@ def run_episode(
     that the episode can be filmed and recorded.
 
     Args:
-        env: ``signimit/TabletopHand-v0``, or another with ``control="hand"`` and a state observed, wrapped or not; it is
-            not closed.
+        env: ``signimit/TabletopHand-v0``, or another with ``control="hand"`` and a state observed, wrapped or not; it
+            is not closed.
         model: Who obeys.
         seed: Seed of the reset.
         options: Options of the reset, e.g. ``{"movement": 2, "focus": 0}``; what they leave out is drawn.
