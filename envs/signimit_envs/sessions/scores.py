@@ -63,8 +63,9 @@ def failing_stage(result: SessionResult, reproduction: Reproduction) -> str:
     for stage, right in zip(STAGES, verdict[:3], strict=False):
         if not right:
             return stage
-    meant = session.truth.movement[int(np.flatnonzero(model.labels == reproduction.answer.movement)[0])]
-    if (int(meant), reproduction.answer.focus) != command.request:
+    members = session.truth.movement[model.labels == reproduction.answer.movement]
+    meant = int(np.bincount(members).argmax())  # a movement that was found stands for what most of its members show
+    if (meant, reproduction.answer.focus) != command.request:
         return "sign"
     policy = model.respond(command.signs, command.objects).policy
     ideal_path = run_policy(policy, command.hand, result.plan.seconds)
