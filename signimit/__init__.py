@@ -83,9 +83,11 @@ from signimit.explanation import Ambiguity, Reasons, Suspicion
 from signimit.grouping import Grouping, group_movements
 from signimit.inference import WordOrder, infer_focus, infer_word_order
 from signimit.learners.base import Belief, Understanding
-from signimit.learning import ImitationModel, Movement, Response, learn
+from signimit.learning import ImitationModel, learn
+from signimit.names import Names
 from signimit.policies import POLICY_KINDS, PlacedPolicy, Policy, load_policy, make_policy, run_policy
 from signimit.policies import StatefulPolicy as StatefulPolicy  # the name of `Policy` in 0.1.0
+from signimit.responses import Movement, Response
 from signimit.signs import SignSpace, dtw_distance, normalised_sign
 from signimit.similarity import maximum_similarities, policy_distances, policy_similarities
 from signimit.strokes import Stroke, StrokeLibrary
@@ -102,7 +104,7 @@ __all__ = [  # noqa: RUF022 -- in the order of the paper
     "Grouping", "group_movements", "infer_focus", "WordOrder", "infer_word_order",
     # II and II-D: the whole
     "learn", "ImitationModel", "Movement", "Response", "Understanding", "Belief", "Reasons", "Ambiguity", "Suspicion",
-    "Query",
+    "Query", "Names",
     # II-E
     "Policy", "PlacedPolicy", "POLICY_KINDS", "make_policy", "load_policy", "run_policy",
     # III: what was performed

@@ -8,15 +8,17 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.special import entr
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.display import one_line
+from signimit.exceptions import InvalidInputError
 from signimit.explanation import SUSPECT, known_belief
 from signimit.learners.base import Asked, Understanding
 from signimit.paths import half_size
 from signimit.segmentation import find_drawing
+from signimit.validation import finite_array
 
 _CLEAR = 1.5  # median half sizes of a drawing; objects this far apart are told from each other by 1 - 1/e
 _SUSPICION = 3.0  # nats that a pair under suspicion is worth: more than doubts about both words of most other pairs
@@ -43,7 +45,7 @@ class Query(NamedTuple):
     gain: float
 
 
-def choose_query(demonstrations: DemonstrationSet, understanding: Understanding, scenes: NDArray[np.float64]) -> Query:
+def choose_query(demonstrations: DemonstrationSet, understanding: Understanding, scenes: ArrayLike) -> Query:
     """Choose the pair of meanings and the scene with the largest expected gain.
 
     What a pair can teach is the doubt about each of its two words, in nats; that the pair is new: 1 where it was never
@@ -57,8 +59,12 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
         scenes: Object positions of the scenes there are to choose from, shape (S, O, 2), m.
 
     Raises:
-        InvalidInputError: If the learner has no probabilities to tell.
+        InvalidInputError: If there is no scene, one has not as many objects as the demonstrations, or the learner has
+            no probabilities to tell.
     """
+    places = finite_array(scenes, "scenes", (None, demonstrations.objects.shape[1], 2))
+    if not len(places):
+        raise InvalidInputError("scenes", "at least one", "none")
     belief, order, asked = known_belief(understanding), understanding.word_order, understanding.requests
     trust = np.ones(len(demonstrations)) if understanding.trust is None else understanding.trust
     trusted = trust >= SUSPECT
@@ -66,7 +72,7 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
         trusted[:] = True  # words must come from somewhere
     about_movement = entr(belief.movement_probability).sum(axis=1)
     about_focus = entr(belief.focus_probability).sum(axis=1)
-    shown = np.zeros((int(understanding.labels.max()) + 1, scenes.shape[1]))
+    shown = np.zeros((int(understanding.labels.max()) + 1, places.shape[1]))
     np.add.at(shown, asked, trust)
     to_movement = _most_doubtful(about_movement, np.where(trusted, asked.movement, -1), shown.shape[0])
     to_focus = _most_doubtful(about_focus, np.where(trusted, asked.focus, -1), shown.shape[1])
@@ -74,7 +80,7 @@ def choose_query(demonstrations: DemonstrationSet, understanding: Understanding,
     lesson += _SUSPICION * _open_suspicion(asked, trust, shown.shape)
     lesson[to_movement < 0], lesson[:, to_focus < 0] = 0.0, 0.0  # no trusted demonstration has that word
     unit = float(np.median([half_size(d.hand[find_drawing(d.hand, d.times)]) for d in demonstrations]))
-    gains = lesson[None] * _clarity(scenes, _CLEAR * unit)[:, None]
+    gains = lesson[None] * _clarity(places, _CLEAR * unit)[:, None]
     scene, movement, about = (int(i) for i in np.unravel_index(int(gains.argmax()), gains.shape))
     copied = [int(to_focus[about])] * len(demonstrations[0].signs)
     copied[order.movement] = int(to_movement[movement])

@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.exceptions import FileFormatError, InvalidInputError
 from signimit.io.archive import read_archive, write_archive
+from signimit.names import check_names, names_from_array
+from signimit.notebook import demonstrations_html
 from signimit.strokes import cut, flatten
 from signimit.validation import FARTHEST, LEAST_MOVE, finite_array, increasing_times, item_list, moving_points
 
@@ -66,15 +68,30 @@ class DemonstrationSet(Sequence[Demonstration]):
 
     Attributes:
         demonstrations: The demonstrations, in the order they were seen.
+        object_names: What the objects are called where words are printed; None for colours. Nothing is learned from it.
+
+    Example:
+        >>> import numpy as np
+        >>> from signimit import Demonstration, DemonstrationSet
+        >>> line = np.array([[0.0, 0.0], [0.1, 0.0]])
+        >>> shown = Demonstration(signs=[line, -line], objects=[[0.1, 0.0], [0.3, 0.2]], hand=line, times=[0.0, 1.0])
+        >>> DemonstrationSet([shown, shown], object_names=("cup", "plate"))
+        DemonstrationSet(2 demonstrations, signs=2, objects=2)
     """
 
     demonstrations: tuple[Demonstration, ...]
+    object_names: tuple[str, ...] | None = None
 
-    def __init__(self, demonstrations: Iterable[Demonstration]) -> None:
+    def __init__(self, demonstrations: Iterable[Demonstration], object_names: Iterable[str] | None = None) -> None:
         """Gather demonstrations.
 
+        Args:
+            demonstrations: The demonstrations, at least one.
+            object_names: One for each object; left out, they are called by colours.
+
         Raises:
-            InvalidInputError: If there are none, or one differs in words or objects from the first.
+            InvalidInputError: If there are none, one differs in words or objects from the first, or the names cannot be
+                printed and told apart.
         """
         object.__setattr__(self, "demonstrations", tuple(item_list(demonstrations, "demonstration set")))
         for i, demonstration in enumerate(self.demonstrations):
@@ -86,6 +103,8 @@ class DemonstrationSet(Sequence[Demonstration]):
                 want, have = len(getattr(first, field)), len(getattr(other, field))
                 if have != want:
                     raise InvalidInputError(f"demonstration {i}: {field}", f"{want} as in demonstration 0", f"{have}")
+        named = None if object_names is None else check_names(object_names, "object_names", len(first.objects))
+        object.__setattr__(self, "object_names", named)
 
     @overload
     def __getitem__(self, index: int) -> Demonstration: ...
@@ -94,7 +113,7 @@ class DemonstrationSet(Sequence[Demonstration]):
     def __getitem__(self, index: int | slice) -> Demonstration | DemonstrationSet:
         """Return one demonstration, or a smaller set."""
         if isinstance(index, slice):
-            return DemonstrationSet(self.demonstrations[index])
+            return DemonstrationSet(self.demonstrations[index], self.object_names)
         return self.demonstrations[index]
 
     def __iter__(self) -> Iterator[Demonstration]:
@@ -110,6 +129,10 @@ class DemonstrationSet(Sequence[Demonstration]):
         first = self.demonstrations[0]
         counts = f"{len(self)} demonstration{'s' * (len(self) != 1)}"
         return f"DemonstrationSet({counts}, signs={len(first.signs)}, objects={len(first.objects)})"
+
+    def _repr_html_(self) -> str:
+        """Draw signs, scenes and hands, as notebooks show it."""
+        return demonstrations_html(self)
 
     @property
     def paths(self) -> list[NDArray[np.float64]]:
@@ -131,6 +154,19 @@ class DemonstrationSet(Sequence[Demonstration]):
         """Utterances: N tuples of W strokes."""
         return [d.signs for d in self.demonstrations]
 
+    def check_command(
+        self, signs: Iterable[ArrayLike], objects: ArrayLike
+    ) -> tuple[list[NDArray[np.float64]], NDArray[np.float64]]:
+        """Return an utterance, W signs of shape (T_s, 2), and a scene, shape (O, 2), m, like those of this set.
+
+        Raises:
+            InvalidInputError: If there are not as many signs or objects.
+        """
+        utterance = [moving_points(s, f"sign {i}") for i, s in enumerate(item_list(signs, "signs"))]
+        if len(utterance) != len(self[0].signs):
+            raise InvalidInputError("signs", f"{len(self[0].signs)} as in the demonstrations", f"{len(utterance)}")
+        return utterance, finite_array(objects, "objects", (len(self[0].objects), 2))
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a ``.npz`` file without pickles, whole or not at all."""
         write_archive(path, KIND, VERSION, self.to_arrays())
@@ -150,6 +186,7 @@ class DemonstrationSet(Sequence[Demonstration]):
         hands, times, hand_offsets = flatten([(d.hand, d.times) for d in self.demonstrations])
         strokes = [(s, np.arange(len(s), dtype=np.float64)) for d in self.demonstrations for s in d.signs]
         signs, _, sign_offsets = flatten(strokes)
+        named = {} if self.object_names is None else {"object_names": np.array(self.object_names)}
         return {
             "objects": self.objects,
             "hand": hands,
@@ -157,6 +194,7 @@ class DemonstrationSet(Sequence[Demonstration]):
             "hand_offsets": hand_offsets,
             "signs": signs,
             "sign_offsets": sign_offsets,
+            **named,
         }
 
     @classmethod
@@ -173,6 +211,9 @@ class DemonstrationSet(Sequence[Demonstration]):
                     f"objects and signs for {count} hands",
                     f"{len(objects)} and {len(strokes)}",
                 )
+            named = None
+            if "object_names" in arrays:
+                named = names_from_array(arrays["object_names"], "object_names")
             made = []
             for i, hand in enumerate(hands):
                 signs = strokes[i * words : (i + 1) * words]
@@ -180,7 +221,7 @@ class DemonstrationSet(Sequence[Demonstration]):
                     made.append(Demonstration(tuple(signs), objects[i], hand, times[i]))
                 except InvalidInputError as error:
                     raise error.inside(f"demonstration {i}") from None
-            return cls(made)
+            return cls(made, named)
         except KeyError as error:
             raise FileFormatError(where, f"an array {error}", "none") from None
         except InvalidInputError as error:

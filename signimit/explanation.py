@@ -16,11 +16,11 @@ from signimit.exceptions import InvalidInputError
 from signimit.inference import WordOrder
 from signimit.learners.base import Belief, Understanding
 from signimit.lexicon import Sign, find_lexicon
+from signimit.names import UNNAMED, Names
 
 DOUBT = 0.1  # an object or a movement that is at least this probable beside the chosen one makes it ambiguous
 SUSPECT = 0.5  # trust below which a demonstration is under suspicion: more probably it was not meant as it looks
 ORDER_DOUBT = 3.0  # nats within which another word order may be right as well; odds of 20 to 1
-OBJECT_NAMES = ("red", "green", "blue", "violet", "orange", "teal")
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth")
 _COUNTS = ("no", "one", "two", "three", "four", "five", "six")
 
@@ -34,16 +34,19 @@ class Ambiguity(NamedTuple):
         objects: The objects it may be about, the most probable first.
         probabilities: How probable each is.
         apart: Distance between the first two objects, m; small where the scene, not the learner, is to blame.
+        names: What its sentence calls the objects.
     """
 
     demonstration: int
     objects: tuple[int, ...]
     probabilities: tuple[float, ...]
     apart: float
+    names: Names = UNNAMED
 
     def __str__(self) -> str:
         """Return the sentence; it counts from 1."""
-        named = ", ".join(f"{object_name(i)} {p:.0%}" for i, p in zip(self.objects, self.probabilities, strict=True))
+        likely = zip(self.objects, self.probabilities, strict=True)
+        named = ", ".join(f"{self.names.object(i)} {probability:.0%}" for i, probability in likely)
         return (
             f"Demonstration {self.demonstration + 1} is ambiguous: {named}; the first two are {self.apart:.2f} m apart."
         )
@@ -59,6 +62,7 @@ class Suspicion(NamedTuple):
         asked: Movement and object that its words ask for.
         shown: Movement and object that it shows; None if it shows none of the movements.
         against: Trusted demonstrations that were asked for the same and showed it, which it contradicts.
+        names: What its sentence calls objects and movements.
     """
 
     demonstration: int
@@ -66,24 +70,29 @@ class Suspicion(NamedTuple):
     asked: tuple[int, int]
     shown: tuple[int, int] | None
     against: tuple[int, ...]
+    names: Names = UNNAMED
 
     def __str__(self) -> str:
         """Return what it asks for, what it shows and what it would have to be to fit; counts from 1."""
-        (movement, thing), done = _named(*self.asked), "none of the movements"
-        asks = f"Demonstration {self.demonstration + 1} asks for {movement} about {thing}"
+        names, movement, thing = self.names, f"movement {self.asked[0] + 1}", self._thing(self.asked[1])
+        asks = f"Demonstration {self.demonstration + 1} asks for {names.movement(self.asked[0])} about {thing}"
         as_others = f", as {_demonstrations(self.against)} do{'es' * (len(self.against) == 1)}" if self.against else ""
         if self.shown is None:
+            done = "none of the movements"
             return f"{asks} but shows {done}. It would fit if it showed that movement{as_others}."
-        shown, other = _named(*self.shown)
         if self.shown == self.asked:
             return f"{asks} and seems to show it, but was meant so with {self.trust:.0%} only."
+        done, shown, other = names.movement(self.shown[0]), f"movement {self.shown[0] + 1}", self._thing(self.shown[1])
         if self.shown[1] == self.asked[1]:
-            done, fit, instead = f"{shown} about it", f"showed {movement}", shown
+            done, fit, instead = f"{done} about it", f"showed {movement}", shown
         elif self.shown[0] == self.asked[0]:
             done, fit, instead = f"it about {other}", f"were about {thing}", other
         else:
-            done, fit, instead = f"{shown} about {other}", "showed what it asks for", "that"
+            done, fit, instead = f"{done} about {other}", "showed what it asks for", "that"
         return f"{asks} but shows {done}. It would fit if it {fit}{as_others}, or asked for {instead}."
+
+    def _thing(self, focus: int) -> str:
+        return f"the {self.names.object(focus)} object"
 
 
 @one_line
@@ -117,11 +126,6 @@ class Reasons(NamedTuple):
         return self.text
 
 
-def object_name(index: int) -> str:
-    """Return the colour of an object, or its number, from 1, where colours have run out."""
-    return OBJECT_NAMES[index] if index < len(OBJECT_NAMES) else f"number {index + 1}"
-
-
 def ordinal(position: int) -> str:
     """Return "first" for position 0, and so on."""
     return _ORDINALS[position] if position < len(_ORDINALS) else f"{position + 1}th"
@@ -150,7 +154,7 @@ def word_order_text(understanding: Understanding) -> str:
     return f"The word order cannot be told yet; so far it seems that {names}"
 
 
-def find_suspicions(understanding: Understanding) -> tuple[Suspicion, ...]:
+def find_suspicions(understanding: Understanding, names: Names = UNNAMED) -> tuple[Suspicion, ...]:
     """Find the demonstrations whose trust is below `SUSPECT`, and those that they contradict."""
     if understanding.trust is None:
         return ()
@@ -162,7 +166,8 @@ def find_suspicions(understanding: Understanding) -> tuple[Suspicion, ...]:
         kin = focus == focus[t] if other_object_only else movement == movement[t]
         against = tuple(np.flatnonzero(sound & kin).tolist())
         shown = None if labels[t] < 0 else (int(labels[t]), int(about[t]))
-        found.append(Suspicion(t, float(understanding.trust[t]), (int(movement[t]), int(focus[t])), shown, against))
+        asked = int(movement[t]), int(focus[t])
+        found.append(Suspicion(t, float(understanding.trust[t]), asked, shown, against, names))
     return tuple(found)
 
 
@@ -172,12 +177,13 @@ def find_idle_words(understanding: Understanding) -> tuple[int, ...]:
     return tuple(word for word in range(words) if word not in understanding.word_order)
 
 
-def summarise(understanding: Understanding, objects: int) -> str:
+def summarise(understanding: Understanding, objects: int, names: Names = UNNAMED) -> str:
     """Say which demonstrations show which movement about which object, and what each word and sign means.
 
     Args:
         understanding: What was inferred.
         objects: Number of objects in a scene.
+        names: What they and the movements are called.
 
     Returns:
         Lines of text; demonstrations and movements are counted from 1, where their indices count from 0.
@@ -188,8 +194,8 @@ def summarise(understanding: Understanding, objects: int) -> str:
     lines = [f"{shown} {count} movement{'s' * (count != 1)}."]
     for m in range(count):
         numbers = np.flatnonzero(labels == m).tolist()
-        members = ", ".join(f"{t + 1} (about {object_name(int(focus[t]))})" for t in numbers)
-        lines.append(f"  Movement {m + 1}: demonstration{'s' * (len(numbers) != 1)} {members}.")
+        members = ", ".join(f"{t + 1} (about {names.object(int(focus[t]))})" for t in numbers)
+        lines.append(f"  M{names.movement(m)[1:]}: demonstration{'s' * (len(numbers) != 1)} {members}.")
     if (labels < 0).any():
         lines.append(f"  None of them: {_demonstrations(np.flatnonzero(labels < 0).tolist())}.")
     lines.append(word_order_text(understanding))
@@ -197,8 +203,8 @@ def summarise(understanding: Understanding, objects: int) -> str:
     for_objects, for_movements = (sum(sign.role == role for sign in signs) for role in ("focus", "movement"))
     found = f"{len(signs)} sign{'s' * (len(signs) != 1)}"
     lines.append(f"There are {found}: {for_objects} for objects, {for_movements} for movements.")
-    meanings = [("focus", i, f"the {object_name(i)} object") for i in range(objects)]
-    meanings += [("movement", m, f"movement {m + 1}") for m in range(count)]
+    meanings = [("focus", i, f"the {names.object(i)} object") for i in range(objects)]
+    meanings += [("movement", m, names.movement(m)) for m in range(count)]
     for role, number, meaning in meanings:
         forms = [_demonstrations(s.exemplars) for s in signs if (s.role, s.meaning) == (role, number)]
         word = ordinal(order.focus if role == "focus" else order.movement)
@@ -213,12 +219,15 @@ def summarise(understanding: Understanding, objects: int) -> str:
     return "\n".join(lines)
 
 
-def explain_understanding(understanding: Understanding, objects: NDArray[np.float64]) -> Reasons:
+def explain_understanding(
+    understanding: Understanding, objects: NDArray[np.float64], names: Names = UNNAMED
+) -> Reasons:
     """Explain what a learner understood, by its belief.
 
     Args:
         understanding: With a belief, as the joint learner has.
         objects: Object positions, shape (N, O, 2), m.
+        names: What they and the movements are called.
 
     Raises:
         InvalidInputError: If the learner has no probabilities to tell.
@@ -229,10 +238,10 @@ def explain_understanding(understanding: Understanding, objects: NDArray[np.floa
     for t in np.flatnonzero(((focus >= DOUBT).sum(axis=1) > 1) & (understanding.labels >= 0)).tolist():
         likely = [int(i) for i in np.argsort(-focus[t], kind="stable") if focus[t, i] >= DOUBT]
         apart = float(np.linalg.norm(objects[t, likely[0]] - objects[t, likely[1]]))
-        ambiguous.append(Ambiguity(t, tuple(likely), tuple(float(focus[t, i]) for i in likely), apart))
+        ambiguous.append(Ambiguity(t, tuple(likely), tuple(float(focus[t, i]) for i in likely), apart, names))
     unsure = tuple(np.flatnonzero((movement >= DOUBT).sum(axis=1) > 1).tolist())
-    ranked, suspicions = rank_word_orders(belief), find_suspicions(understanding)
-    lines = [summarise(understanding, objects.shape[1])]
+    ranked, suspicions = rank_word_orders(belief), find_suspicions(understanding, names)
+    lines = [summarise(understanding, objects.shape[1], names)]
     if len(ranked) == 1:
         lines.append("With one word there is only one word order.")
     else:
@@ -241,9 +250,9 @@ def explain_understanding(understanding: Understanding, objects: NDArray[np.floa
         lines.append(f"The next best word order, {words}, explains {loss:.1f} nats less.")
     lines += map(str, suspicions)
     lines += map(str, ambiguous)
-    names = [f"movement {m + 1}" for m in range(movement.shape[1] - 1)] + ["none of them"]
+    shown = [*map(names.movement, range(movement.shape[1] - 1)), "none of them"]
     for t in unsure:
-        named = [f"{name} {p:.0%}" for name, p in zip(names, movement[t], strict=True) if p >= DOUBT]
+        named = [f"{name} {p:.0%}" for name, p in zip(shown, movement[t], strict=True) if p >= DOUBT]
         lines.append(f"Demonstration {t + 1} may show {' or '.join(named)}.")
     if not (ambiguous or unsure or suspicions):
         lines.append(f"No demonstration is in doubt: nothing else is as probable as {DOUBT:.0%}.")
@@ -260,11 +269,6 @@ def known_belief(understanding: Understanding) -> Belief:
     if understanding.belief is None:
         raise InvalidInputError("method", 'probabilities, which "joint" has', "a method without")
     return understanding.belief
-
-
-def _named(movement: int, focus: int) -> tuple[str, str]:
-    """Name a movement, counted from 1, and an object."""
-    return f"movement {movement + 1}", f"the {object_name(focus)} object"
 
 
 def _demonstrations(numbers: Sequence[int]) -> str:

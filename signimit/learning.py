@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, NamedTuple, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from signimit.asking import Query, choose_query
 from signimit.demonstrations import Demonstration, DemonstrationSet
-from signimit.display import one_line
 from signimit.exceptions import InvalidInputError, UnknownNameError
 from signimit.explanation import Reasons, explain_understanding, summarise
 from signimit.inference import WordOrder
@@ -21,50 +20,15 @@ from signimit.learners import DEFAULT_METHOD, get_learner
 from signimit.learners.base import SignReader, Understanding
 from signimit.learners.model_files import ModelParts, read_model, write_model
 from signimit.lexicon import Sign, find_lexicon
-from signimit.policies import DEFAULT_POLICY, PlacedPolicy, Policy, check_policy_kind, make_policy
+from signimit.names import Names, carry_names, check_names
+from signimit.notebook import model_html
+from signimit.policies import DEFAULT_POLICY, Policy, check_policy_kind, make_policy
+from signimit.responses import Movement, Response, find_landmarks, find_movements
 from signimit.signs import prototype_points
 from signimit.strokes import Stroke
-from signimit.validation import finite_array, item_list, make_generator, moving_points
+from signimit.validation import finite_array, make_generator
 
 LEAST_CONFIDENCE = 0.5  # of an answer; below a half it is more often wrong than right
-
-
-@one_line
-class Movement(NamedTuple):
-    """A movement that was found: the demonstrations that show it, and their paths seen from their objects.
-
-    Attributes:
-        members: Numbers of the demonstrations that show it.
-        paths: Their hand paths in the frame of the object they were about, each (T_t, 2), m.
-        times: Their time stamps, each (T_t,), s.
-    """
-
-    members: tuple[int, ...]
-    paths: tuple[NDArray[np.float64], ...]
-    times: tuple[NDArray[np.float64], ...]
-
-
-@one_line
-class Response(NamedTuple):
-    """The model's answer to a command.
-
-    Attributes:
-        movement: Number of the movement that was asked for, an index of ``model.movements``.
-        focus: Number of the object that was asked for.
-        policy: Velocity, m/s, of a hand at (2,) or hands at (B, 2), m, table frame; ``policy.at(place)`` is the same
-            about another place.
-        confidence: Probability, in the learner's eyes, that both are right.
-    """
-
-    movement: int
-    focus: int
-    policy: PlacedPolicy
-    confidence: float
-
-    @property
-    def place(self) -> NDArray[np.float64]:
-        """The place that was asked for, shape (2,), m, table frame: where the object of the focus is."""
-        return self.policy.place
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,6 +42,7 @@ class ImitationModel:
         policy_kind: Kind of policy that its responses use.
         prototypes: Prototype signs, if the method was given any.
         repeat: Whether all movements go round and round, or none does; None if that was left to the evidence.
+        given_names: Names that were given to the movements, an empty text for one without; empty if none were.
     """
 
     demonstrations: DemonstrationSet
@@ -86,6 +51,7 @@ class ImitationModel:
     policy_kind: str
     prototypes: tuple[NDArray[np.float64], ...] | None = None
     repeat: bool | None = None
+    given_names: tuple[str, ...] = ()
     _policies: dict[int, Policy] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
@@ -98,6 +64,10 @@ class ImitationModel:
         seen, kinds = len(self.demonstrations), int(self.labels.max()) + 1
         counts = f"{seen} demonstration{'s' * (seen != 1)}, {kinds} movement{'s' * (kinds != 1)}"
         return f"ImitationModel({counts}, method={self.method!r}, policy_kind={self.policy_kind!r})"
+
+    def _repr_html_(self) -> str:
+        """Draw the movements and the lexicon beside the summary, as notebooks show it."""
+        return model_html(self)
 
     @property
     def labels(self) -> NDArray[np.int64]:
@@ -133,20 +103,47 @@ class ImitationModel:
     @cached_property
     def landmarks(self) -> NDArray[np.float64]:
         """Place each demonstration was about, shape (N, 2), m, table frame: where its focus was; NaN if about none."""
-        places = self.demonstrations.objects[np.arange(len(self.focus)), self.focus]
-        places[self.focus < 0] = np.nan
-        places.setflags(write=False)
-        return places
+        return find_landmarks(self.demonstrations, self.focus)
 
     @cached_property
     def movements(self) -> tuple[Movement, ...]:
         """The movements found, each with its members seen from the object they were about."""
-        demos, found = self.demonstrations, []
-        for m in range(int(self.labels.max()) + 1):
-            members = tuple(int(t) for t in np.flatnonzero(self.labels == m))
-            paths = tuple(demos[t].hand - self.landmarks[t] for t in members)
-            found.append(Movement(members, paths, tuple(demos[t].times for t in members)))
-        return tuple(found)
+        return find_movements(self.demonstrations, self.labels, self.landmarks)
+
+    @cached_property
+    def names(self) -> Names:
+        """What objects and movements are called in words and figures."""
+        drawn = tuple((movement.paths, movement.times) for movement in self.movements)
+        return Names(self.demonstrations.object_names or (), self.given_names, drawn)
+
+    @property
+    def object_names(self) -> tuple[str, ...]:
+        """Name of each object: as the demonstrations have it, or its colour."""
+        return tuple(map(self.names.object, range(self.demonstrations.objects.shape[1])))
+
+    @property
+    def movement_names(self) -> tuple[str, ...]:
+        """Name of each movement: given, or guessed from its shape where that is beyond doubt, or an empty text."""
+        return self.names.movement_names
+
+    def with_names(
+        self, movement_names: Iterable[str | None] | None = None, object_names: Iterable[str] | None = None
+    ) -> Self:
+        """Return the same model with other names for words and figures; what is left out keeps its names.
+
+        Args:
+            movement_names: One for each of `movements`; None where the name is to be guessed from the shape.
+            object_names: One for each object.
+
+        Raises:
+            InvalidInputError: If there are more or fewer, or names cannot be printed and told apart.
+        """
+        demos, given = self.demonstrations, self.given_names
+        if movement_names is not None:
+            given = check_names(movement_names, "movement_names", len(self.movements), optional=True)
+        if object_names is not None:
+            demos = DemonstrationSet(demos, object_names)
+        return replace(self, demonstrations=demos, given_names=given, _policies=dict(self._policies))
 
     @cached_property
     def _reader(self) -> SignReader:
@@ -166,15 +163,11 @@ class ImitationModel:
         Raises:
             InvalidInputError: If there are not as many signs or objects as in the demonstrations.
         """
-        words, count = len(self.demonstrations[0].signs), self.demonstrations.objects.shape[1]
-        utterance = [moving_points(s, f"sign {i}") for i, s in enumerate(item_list(signs, "signs"))]
-        if len(utterance) != words:
-            raise InvalidInputError("signs", f"{words} as in the demonstrations", f"{len(utterance)}")
-        places = finite_array(objects, "objects", (count, 2))
+        utterance, places = self.demonstrations.check_command(signs, objects)
         reading = self._reader.read(utterance)
         movement, focus = int(reading.movement.argmax()), int(reading.focus.argmax())
         confidence = float(reading.movement[movement] * reading.focus[focus] * reading.known)
-        return Response(movement, focus, self.policy(movement).at(places[focus]), confidence)
+        return Response(movement, focus, self.policy(movement).at(places[focus]), confidence, self.names)
 
     def respond_if_sure(
         self, signs: Sequence[ArrayLike], objects: ArrayLike, least: float = LEAST_CONFIDENCE
@@ -216,11 +209,12 @@ class ImitationModel:
         Raises:
             InvalidInputError: If it differs in words or objects from the others, or the method cannot go on.
         """
-        demos = DemonstrationSet([*self.demonstrations, demonstration])
+        demos = DemonstrationSet([*self.demonstrations, demonstration], self.demonstrations.object_names)
         understanding = get_learner(self.method).extend(demos, self.understanding)
         if understanding is None:
             raise InvalidInputError("method", "one that learns one demonstration at a time: joint", repr(self.method))
-        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes, self.repeat)
+        named = carry_names(self.given_names, self.labels, understanding.labels)
+        later = type(self)(demos, understanding, self.method, self.policy_kind, self.prototypes, self.repeat, named)
         made = {self._shown(m): policy for m, policy in self._policies.items()}
         unchanged = {m: later._shown(m) for m in range(len(later.movements)) if later._shown(m) in made}
         later._policies.update({m: made[shown] for m, shown in unchanged.items()})
@@ -240,13 +234,9 @@ class ImitationModel:
             Signs to make, copied from demonstrations, and the number of the scene.
 
         Raises:
-            InvalidInputError: If there is no scene, one has not as many objects as the demonstrations, or the method
-                has no probabilities to tell.
+            InvalidInputError: If there is no scene, one has other objects, or the method has no probabilities to tell.
         """
-        places = finite_array(scenes, "scenes", (None, self.demonstrations.objects.shape[1], 2))
-        if not len(places):
-            raise InvalidInputError("scenes", "at least one", "none")
-        return choose_query(self.demonstrations, self.understanding, places)
+        return choose_query(self.demonstrations, self.understanding, scenes)
 
     def explain(self) -> Reasons:
         """Say why: how sure each focus and movement is, what is under suspicion, what speaks for the word order.
@@ -254,20 +244,16 @@ class ImitationModel:
         Raises:
             InvalidInputError: If the method has no probabilities to tell.
         """
-        return explain_understanding(self.understanding, self.demonstrations.objects)
+        return explain_understanding(self.understanding, self.demonstrations.objects, self.names)
 
     def summary(self) -> str:
         """Say in words what was understood."""
-        return summarise(self.understanding, self.demonstrations.objects.shape[1])
+        return summarise(self.understanding, self.demonstrations.objects.shape[1], self.names)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a ``.npz`` file without pickles, whole or not at all."""
-        write_model(
-            path,
-            ModelParts(
-                self.demonstrations, self.understanding, self.method, self.policy_kind, self.prototypes, self.repeat
-            ),
-        )
+        kinds = self.method, self.policy_kind, self.prototypes, self.repeat, self.given_names
+        write_model(path, ModelParts(self.demonstrations, self.understanding, *kinds))
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:

@@ -20,7 +20,7 @@ from signimit.segmentation import find_drawing
 Array = NDArray[np.float64]
 
 SHAPES = ("circle", "triangle", "square", "five-pointed star", "figure of eight")
-_FIGURE_EIGHT = SHAPES.index("figure of eight")  # it goes neither way round
+_TRIANGLE, _FIGURE_EIGHT = SHAPES.index("triangle"), SHAPES.index("figure of eight")
 _LONG_NAMES = {"circle": "an ellipse", "square": "a four-sided figure"}
 _TIMES = {1: "", 2: ", twice", 3: ", three times", 4: ", four times"}
 
@@ -38,6 +38,7 @@ _AS_NEAR = 0.1  # half sizes by which rounds may lie further apart than the near
 _STRAIGHT = 0.97  # least share of a line's length that lies between its ends
 _FLAT = 0.1  # ratio of extents below which a drawing that comes back is a line, which has no name
 _LONG = 0.7  # ratio of extents below which there are other names
+_LIKE_TURNED, _TURNED = 0.8, 0.7  # triangles point the same way, and that way within 15 degrees: cos(3 * 15 degrees)
 _COUNTED = 0.3  # rounds by which drawings may differ from a whole number of rounds
 _REPEATED = 1.5  # rounds of a drawing that surely goes on; less may be a reach that was taken for a part of it
 
@@ -46,13 +47,14 @@ class _Look(NamedTuple):
     """What one drawing looks like.
 
     Attributes:
-        alike: Correlation with each shape, drawn counter-clockwise and clockwise, shape (S, 2).
+        correlation: With each shape, drawn counter-clockwise and clockwise, complex, shape (S, 2): how much alike, and
+            how far turned.
         extent: Smaller extent of a round in units of the larger; 0 if there is no round.
         rounds: How many rounds it has; 0 if it does not come back to where it began.
         straight: Share of its length that lies between its ends.
     """
 
-    alike: Array
+    correlation: NDArray[np.complex128]
     extent: float
     rounds: float
     straight: float
@@ -86,7 +88,8 @@ def guess_shape(paths: Sequence[Array], stamps: Sequence[Array]) -> str:
         return "like a straight line"
     if not _most(look.rounds > 0 for look in looks):
         return ""
-    alike = np.stack([look.alike for look in looks])  # (n, S, 2)
+    found = np.stack([look.correlation for look in looks])  # (n, S, 2)
+    alike = np.abs(found)
     shape = int(alike.max(axis=2).mean(axis=0).argmax())
     clockwise = bool(alike[:, shape].mean(axis=0).argmax())
     others, mean = np.delete(alike, shape, axis=1).max(axis=(1, 2)), alike[:, shape, int(clockwise)].mean()
@@ -98,11 +101,28 @@ def guess_shape(paths: Sequence[Array], stamps: Sequence[Array]) -> str:
     name, way = f"a {SHAPES[shape]}", ", clockwise" if clockwise else ", counter-clockwise"
     if extent < _LONG:
         name = _LONG_NAMES.get(SHAPES[shape], name)
-    return f"like {name}{'' if shape == _FIGURE_EIGHT else way}{times}"
+    if shape == _TRIANGLE:
+        name += _pointing(found[:, shape, int(clockwise)])
+    if shape == _FIGURE_EIGHT:
+        way = ""  # it goes both ways round
+    return f"like {name}{way}{times}"
 
 
 def _most(votes: Iterable[bool]) -> bool:
     return float(np.mean(list(votes))) >= _AGREE
+
+
+def _pointing(correlation: NDArray[np.complex128]) -> str:
+    """Say where triangles point, if they agree on it.
+
+    The phase of a correlation is how far a triangle that points right has to be turned, up to thirds of a turn.
+    """
+    seen = correlation[np.abs(correlation) > 0]
+    mean = ((seen / np.abs(seen)) ** 3).mean()
+    if abs(mean) < _LIKE_TURNED:
+        return ""
+    ways = {" pointing right": 1, " pointing up": -1j, " pointing left": -1, " pointing down": 1j}
+    return next((name for name, way in ways.items() if (mean / abs(mean) * np.conj(way)).real > _TURNED), "")
 
 
 def _times(rounds: list[float]) -> str | None:
@@ -116,15 +136,18 @@ def _times(rounds: list[float]) -> str | None:
 def _look(drawing: Array) -> _Look:
     """Look at a drawing without its reach, shape (T, 2), m."""
     straight = float(np.hypot(*(drawing[-1] - drawing[0])) / arc_lengths(drawing)[-1])
-    share, alike, extent = _find_round(drawing), np.zeros((len(SHAPES), 2)), 0.0
+    share, extent = _find_round(drawing), 0.0
+    correlation = np.zeros((len(SHAPES), 2), dtype=np.complex128)
     if share:
         fine = 4 * _SAMPLES
         once = resample_path(drawing, fine)[: round(share * fine)]
         least, most = np.linalg.eigvalsh(np.cov(once.T))
         extent = float(np.sqrt(max(least, 0.0) / most))
         if extent >= _FLAT:
-            alike = np.abs(np.fft.ifft(np.fft.fft(_directions(once)) * _spectra())).max(axis=-1)
-    return _Look(alike, extent, 1 / share if share else 0.0, straight)
+            all_shifts = np.fft.ifft(np.fft.fft(_directions(once)) * _spectra())
+            best = np.abs(all_shifts).argmax(axis=-1, keepdims=True)
+            correlation = np.take_along_axis(all_shifts, best, axis=-1)[..., 0]
+    return _Look(correlation, extent, 1 / share if share else 0.0, straight)
 
 
 def _find_round(drawing: Array) -> float:
@@ -155,7 +178,7 @@ def _directions(drawn: Array) -> NDArray[np.complex128]:
 
 @cache
 def _spectra() -> NDArray[np.complex128]:
-    """Return the conjugate spectra of the directions of each shape, counter-clockwise and clockwise, shape (S, 2, 64)."""
+    """Return conjugate spectra of the directions of shapes, counter-clockwise and clockwise, shape (S, 2, 64)."""
     angles = np.linspace(0.0, 2 * np.pi, 4 * _SAMPLES, endpoint=False)
     rings = [np.exp(2j * np.pi * np.arange(k) * step / k) for k, step in ((len(angles), 1), (3, 1), (4, 1), (5, 2))]
     drawn = [np.column_stack([ring.real, ring.imag]) for ring in rings]

@@ -172,7 +172,7 @@ def test_importing_the_core_leaves_numpys_randomness_alone() -> None:
 def test_the_truth_has_no_place_in_what_the_learner_sees() -> None:
     seen = {f.name for f in dataclasses.fields(signimit.Demonstration)}
     assert seen == {"signs", "objects", "hand", "times"}
-    assert [f.name for f in dataclasses.fields(signimit.DemonstrationSet)] == ["demonstrations"]
+    assert [f.name for f in dataclasses.fields(signimit.DemonstrationSet)] == ["demonstrations", "object_names"]
     assert list(inspect.signature(signimit.learn).parameters) == [
         "demonstrations",
         "prototypes",

@@ -15,6 +15,7 @@ from signimit.inference import WordOrder
 from signimit.io.archive import read_archive, write_archive
 from signimit.learners import get_learner
 from signimit.learners.base import Asked, Belief, Learner, Understanding
+from signimit.names import check_names, names_from_array
 from signimit.policies import check_policy_kind
 from signimit.signs import prototype_points
 from signimit.strokes import cut, flatten
@@ -33,6 +34,7 @@ class ModelParts(NamedTuple):
     policy_kind: str
     prototypes: tuple[NDArray[np.float64], ...] | None
     repeat: bool | None
+    given_names: tuple[str, ...]
 
 
 def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
@@ -47,6 +49,8 @@ def write_model(path: str | os.PathLike[str], parts: ModelParts) -> None:
         points, _, offsets = flatten([(p, np.zeros(len(p))) for p in parts.prototypes])
         arrays |= {"prototypes": points, "prototype_offsets": offsets}
     meta: dict[str, Any] = {"method": parts.method, "policy": parts.policy_kind}
+    if any(parts.given_names):
+        arrays["movement_names"] = np.array(parts.given_names)
     if parts.repeat is not None:
         meta["repeat"] = parts.repeat
     write_archive(path, KIND, VERSION, arrays, meta)
@@ -70,6 +74,10 @@ def read_model(path: str | os.PathLike[str]) -> ModelParts:
         prototypes = None
         if "prototypes" in arrays:
             prototypes = prototype_points(cut(arrays["prototypes"], "prototypes", arrays["prototype_offsets"]))
+        named: tuple[str, ...] = ()
+        if "movement_names" in arrays:
+            listed = names_from_array(arrays["movement_names"], "movement_names")
+            named = check_names(listed, "movement_names", int(understanding.labels.max()) + 1, optional=True)
         learner.reader(demos, prototypes, understanding)  # what a reader lacks is a fault of the file, to be told now
     except KeyError as error:
         raise FileFormatError(where, f"an entry {error}", "none") from None
@@ -77,7 +85,7 @@ def read_model(path: str | os.PathLike[str]) -> ModelParts:
         raise FileFormatError(f"{where}: {error.where}", error.expected, error.found) from None
     except UnknownNameError as error:
         raise FileFormatError(where, f"a known {error.what}", repr(error.name)) from None
-    return ModelParts(demos, understanding, method, kind, prototypes, repeat)
+    return ModelParts(demos, understanding, method, kind, prototypes, repeat, named)
 
 
 def _part(arrays: dict[str, NDArray[Any]], prefix: str) -> dict[str, NDArray[Any]]:

@@ -5,16 +5,18 @@ Needs matplotlib, which the extra ``scripts`` installs; nothing else in signimit
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import MissingDependencyError
-from signimit.explanation import DOUBT, Reasons, object_name, ordinal
-from signimit.learning import ImitationModel, Movement
+from signimit.explanation import DOUBT, Reasons, ordinal
+from signimit.learning import ImitationModel
 from signimit.plots.panels import FRAME, View, draw_sign, find_view, object_colour
 from signimit.plots.paper import PATH_STYLES
+from signimit.responses import Movement
 
 try:
     from matplotlib.figure import Figure
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import SubFigure
 
 _HATCHES = ("", "//", "..", "xx", "\\\\", "++")  # objects are told apart without their colours
+_NAME_WIDTH = 26  # characters in a line of a legend or a title
 _NONE = "#e4e4e4"  # of a demonstration that is about no object
 
 
@@ -54,9 +57,9 @@ def _draw_beliefs(figure: SubFigure, model: ImitationModel, reasons: Reasons) ->
     about = np.column_stack([reasons.focus_probability, np.zeros(len(order))])
     about[model.focus < 0] = np.eye(len(objects) + 1)[-1]
     with_none = len(objects) + bool((model.focus < 0).any())
-    names = [*map(object_name, objects), "none"][:with_none]
+    names = [*map(model.names.object, objects), "none"][:with_none]
     _stack(upper, about[order, :with_none], names, [*map(object_colour, objects), _NONE])
-    names = [f"movement {m + 1}" for m in range(len(model.movements))] + ["none"]
+    names = [*(_movement_name(model, m) for m in range(len(model.movements))), "none"]
     _stack(lower, reasons.movement_probability[order], names, [str(c) for c in np.linspace(0.25, 0.9, len(names))])
     suspected = [suspicion.demonstration for suspicion in reasons.suspicions]
     ambiguous = {doubt.demonstration: doubt for doubt in reasons.ambiguous}
@@ -75,6 +78,10 @@ def _draw_beliefs(figure: SubFigure, model: ImitationModel, reasons: Reasons) ->
         "between objects it says how far the two lie apart. A ! marks what was more probably not meant so.",
         fontsize=10,
     )
+
+
+def _movement_name(model: ImitationModel, movement: int) -> str:
+    return textwrap.fill(model.names.movement(movement), _NAME_WIDTH)
 
 
 def _stack(panel: Axes, shares: NDArray[Any], names: list[str], colours: list[str]) -> None:
@@ -104,10 +111,10 @@ def _draw_lexicon(figure: SubFigure, model: ImitationModel) -> None:
         panel.set_axis_off()
     for i in range(objects):
         times = _draw_word(axes[0, i], model, "focus", i)
-        axes[0, i].set_title(f"{object_name(i)}, {times} times", fontsize=9, color=object_colour(i))
+        axes[0, i].set_title(f"{model.names.object(i)}, {times} times", fontsize=9, color=object_colour(i))
     for m, movement in enumerate(model.movements):
         times = _draw_word(axes[1, m], model, "movement", m)
-        axes[1, m].set_title(f"movement {m + 1}, {times} times", fontsize=9)
+        axes[1, m].set_title(f"{_movement_name(model, m)}, {times} times", fontsize=9)
         axes[2, m].set_axis_on()
         _draw_movement(axes[2, m], movement, view)
     figure.suptitle(

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.exceptions import MissingDependencyError
+from signimit.names import OBJECT_COLOURS
 from signimit.paths import box_centre, half_size
 
 try:
@@ -21,7 +22,6 @@ except ImportError:
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-OBJECT_COLOURS = ("#cc332b", "#3d944d", "#2e66c2", "#804dad", "#d9701a", "#1a8f94")
 OBJECT_MARKERS = ("o", "s", "^", "D", "P", "h")  # the colour-blind tell the objects apart by their shapes
 FRAME = "#e69f00"
 _LEAST_REACH = 0.2  # m to each side of the object that a panel shows at least

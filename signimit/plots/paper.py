@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from signimit.demonstrations import DemonstrationSet
 from signimit.exceptions import MissingDependencyError
-from signimit.explanation import object_name
+from signimit.names import UNNAMED, Names
 from signimit.paths import arc_lengths
 from signimit.plots.panels import (
     OBJECT_MARKERS,
@@ -57,6 +57,7 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     movement, about = np.asarray(labels), np.asarray(focus)
     order = np.lexsort((about, movement, movement < 0))
     words, objects = len(demonstrations[0].signs), demonstrations.objects.shape[1]
+    names = Names(demonstrations.object_names or ())
     view = find_view([d.hand - place for d in demonstrations for place in d.objects])
     figure, axes = make_panels(
         words + objects, len(order), 1.3, heights=[0.8] * words + [1.3 * find_aspect(view)] * objects
@@ -75,7 +76,7 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     for word in range(words):
         axes[word, 0].set_ylabel(f"sign {word + 1}", fontsize=9)
     for i in range(objects):
-        axes[words + i, 0].set_ylabel(f"seen from {object_name(i)}", fontsize=9, color=object_colour(i))
+        axes[words + i, 0].set_ylabel(f"seen from {names.object(i)}", fontsize=9, color=object_colour(i))
     figure.suptitle(
         f"{len(order)} demonstrations, sorted by the movement found; the object found is framed. "
         f"Panels are {np.ptp(view[0]):.1f} m wide, the hand starts at the dot.",
@@ -84,12 +85,13 @@ def draw_demonstrations(demonstrations: DemonstrationSet, labels: ArrayLike, foc
     return figure
 
 
-def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> Figure:
+def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike, names: Names = UNNAMED) -> Figure:
     """Draw the similarity of demonstrations in all pairs of frames (the paper's figure 5), on a logarithmic scale.
 
     Args:
         similarities: γ_{t;k;i;j}, shape (N, N, O, O), 1/rad².
         labels: Movement of each demonstration, shape (N,); demonstrations are sorted by it.
+        names: What the objects are called.
     """
     order, cuts = _sorted_by(labels)
     shown = similarities[np.ix_(order, order)].copy()
@@ -100,8 +102,8 @@ def draw_similarities(similarities: NDArray[np.float64], labels: ArrayLike) -> F
     for i in range(objects):
         for j in range(objects):
             image = _draw_matrix(axes[i, j], shown[:, :, i, j], order, cuts, LogNorm(least, most))
-        axes[i, 0].set_ylabel(f"t seen from {object_name(i)}", color=object_colour(i))
-        axes[0, i].set_title(f"k seen from {object_name(i)}", color=object_colour(i), fontsize=10)
+        axes[i, 0].set_ylabel(f"t seen from {names.object(i)}", color=object_colour(i))
+        axes[0, i].set_title(f"k seen from {names.object(i)}", color=object_colour(i), fontsize=10)
     bar = figure.colorbar(image, ax=axes.ravel().tolist(), shrink=0.6, label="similarity γ, 1/rad²")
     round_numbers = np.multiply.outer(10.0 ** np.arange(-4, 5), [1.0, 2.0, 5.0]).ravel()
     ticks = round_numbers[(round_numbers >= least) & (round_numbers <= most)]
@@ -138,6 +140,7 @@ def draw_reproductions(
     movements: Sequence[str],
     unseen: frozenset[tuple[int, int]],
     imitator: str = "",
+    names: Names = UNNAMED,
 ) -> Figure:
     """Draw what the hand did for each pair of signs, seen from the object asked for (the paper's figure 7).
 
@@ -148,6 +151,7 @@ def draw_reproductions(
         movements: Names of the movements.
         unseen: The pairs that were never demonstrated; their panels are framed.
         imitator: Whose reproductions these are, for the title.
+        names: What the objects are called.
     """
     objects = 1 + max(focus for _, focus in paths)
     view = find_view([path for attempts in paths.values() for path in attempts])
@@ -164,7 +168,7 @@ def draw_reproductions(
     for row, name in enumerate(movements):
         axes[row, 0].set_ylabel(name, fontsize=11)
     for focus in range(objects):
-        axes[-1, focus].set_xlabel(f"about {object_name(focus)}", color=object_colour(focus), fontsize=11)
+        axes[-1, focus].set_xlabel(f"about {names.object(focus)}", color=object_colour(focus), fontsize=11)
     most = max(map(len, paths.values()))
     handles = [Line2D([], [], **_path_look(n), label=f"start {n + 1}") for n in range(min(most, 8))]
     marks = (("o", "where the hand starts"), (">", "direction"), ("x", "end of a path that did not obey"))

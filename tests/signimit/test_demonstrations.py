@@ -27,7 +27,7 @@ def demonstrations() -> DemonstrationSet:
 
 def test_nothing_but_signs_objects_hand_and_times_can_be_seen() -> None:
     assert [f.name for f in dataclasses.fields(Demonstration)] == ["signs", "objects", "hand", "times"]
-    assert [f.name for f in dataclasses.fields(DemonstrationSet)] == ["demonstrations"]
+    assert [f.name for f in dataclasses.fields(DemonstrationSet)] == ["demonstrations", "object_names"]
 
 
 def test_nothing_can_be_hung_on_a_demonstration() -> None:

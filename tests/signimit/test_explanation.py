@@ -12,12 +12,12 @@ from signimit.explanation import (
     ORDER_DOUBT,
     explain_understanding,
     find_suspicions,
-    object_name,
     ordinal,
     summarise,
     word_order_text,
 )
 from signimit.learners.base import Asked, Belief, Understanding
+from signimit.names import object_name
 
 
 def test_what_was_understood_is_said() -> None:

@@ -27,6 +27,8 @@ def main(
     seed: int = 0,
     out: Path = Path("model.npz"),
     why: Path | None = None,
+    object_names: tuple[str, ...] | None = None,
+    movement_names: tuple[str, ...] | None = None,
 ) -> None:
     """Learn from demonstrations, and write what was understood to a model file.
 
@@ -40,6 +42,10 @@ def main(
         out: Model file to write, .npz.
         why: Picture of the reasons to write, .png, .pdf, .svg or .jpg, with the default method: probabilities, lexicon,
             evidence.
+        object_names: What to call each object where words are printed, e.g. "cup plate spoon"; left out, by its colour,
+            or as the file calls it.
+        movement_names: What to call each movement, in the order in which they were found; left out, a shape is named
+            where it is beyond doubt.
     """
     check_output_file(out, ".npz")
     if why is not None:
@@ -47,7 +53,7 @@ def main(
     demos = DemonstrationSet.load(demonstrations)
     library = None if prototypes is None else StrokeLibrary.load(prototypes)
     strokes = None if library is None else [library.select(label)[0] for label in labels]
-    model = learn(demos, strokes, method, policy, seed)
+    model = learn(demos, strokes, method, policy, seed).with_names(movement_names, object_names)
     print(model.summary() if why is None else model.explain())
     if why is not None:
         from signimit.plots.explanation import draw_explanation

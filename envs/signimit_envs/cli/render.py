@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 
 from signimit.exceptions import InvalidInputError
-from signimit.explanation import object_name
 from signimit.learning import ImitationModel
 from signimit.strokes import StrokeLibrary
 from signimit.teaching.scenes import sample_hand, sample_scene
@@ -56,7 +55,8 @@ def main(
     strokes = [pick(library, word, sample) for word in words]
     with closing(TabletopHandEnv(objects=count)) as env:
         answer = answer_signs(learned, strokes, places, start, seconds, env)
-    understood = f"movement {answer.movement + 1} about {object_name(answer.focus)}, confidence {answer.confidence:.2f}"
+    asked = learned.names.request(answer.movement, answer.focus)
+    understood = f"{asked}, confidence {answer.confidence:.2f}"
     print(f"Understood: {understood}.")
     captions = (f"The signs {' '.join(words)} are made", f"The robot understood {understood}")
     film = film_shots(list(show_answer(strokes, places, answer, captions)), count)

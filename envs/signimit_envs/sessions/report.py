@@ -12,7 +12,7 @@ import numpy as np
 from signimit.benchmark.results import installed_versions
 from signimit.benchmark.scoring import judge_inference
 from signimit.benchmark.statistics import Share
-from signimit.explanation import object_name
+from signimit.names import object_name
 from signimit.teaching.composition import Strokes
 from signimit.teaching.languages import Request
 from signimit.teaching.people.choosing import People

@@ -7,7 +7,7 @@ import asyncio
 import numpy as np
 
 from signimit.evaluation import performed
-from signimit.explanation import object_name
+from signimit.names import object_name
 from signimit.teaching.languages import PAPER_LANGUAGE, Request
 from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance, templates

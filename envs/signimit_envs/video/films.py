@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from signimit.explanation import object_name
+from signimit.names import object_name
 from signimit.teaching.languages import Language, Request
 from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.sessions.session import Reproduction, SessionResult

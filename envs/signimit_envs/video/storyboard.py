@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from signimit.demonstrations import Demonstration
 from signimit.display import one_line
-from signimit.explanation import object_name, ordinal
+from signimit.explanation import ordinal
+from signimit.names import object_name
 from signimit_envs.arm.scene import CONTROL_RATE
 from signimit_envs.sessions.session import ArmAnswer, Reproduction, SessionResult
 
@@ -111,7 +112,7 @@ def show_card(result: SessionResult) -> Iterator[Shot]:
         "What the robot understood, without having been told anything:",
         "",
         f"The demonstrator knows {len(groups)} movements:",
-        *(f"    movement {m}, in demonstrations {members}" for m, members in enumerate(groups, start=1)),
+        *(f"    {model.names.movement(m)}, in demonstrations {members}" for m, members in enumerate(groups)),
         *([f"    none of them in demonstrations {beside}"] if beside else []),
         "",
         f"The {ordinal(order.focus)} sign names the object,",

@@ -8,7 +8,7 @@ import pytest
 
 import signimit
 from signimit.benchmark.running import FASTEST
-from signimit.explanation import object_name
+from signimit.names import object_name
 from signimit.policies import CONTROL_PERIOD
 from signimit_envs.arm.inverse_kinematics import HandController
 from signimit_envs.arm.scene import (

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from signimit.asking import Query
-from signimit.explanation import SUSPECT, Reasons, is_word_order_clear, object_name, ordinal
+from signimit.explanation import SUSPECT, Reasons, is_word_order_clear, ordinal
 from signimit.learning import ImitationModel
+from signimit.names import object_name
 from signimit.paths import resample_path
 from signimit.signs import normalised_sign
 from signimit_envs.studio.page.prompts import get_language

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from signimit.exceptions import UnknownNameError
-from signimit.explanation import object_name
+from signimit.names import object_name
 from signimit.teaching.languages import PAPER_LANGUAGE, Language, Request
 
 FREE = "free"

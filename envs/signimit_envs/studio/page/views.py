@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from signimit.explanation import object_name
+from signimit.names import object_name
 from signimit.teaching.languages import Language, Request
 from signimit_envs.studio.arm.live_state import LiveState
 from signimit_envs.studio.open_session import OpenSession
