@@ -74,6 +74,7 @@ def objects(tmp_path_factory: pytest.TempPathFactory) -> list[Any]:
         model.respond(shown[0].signs, scene), model.explain(), model.most_informative([scene]),
         si.group_movements(np.eye(4), rng=0), si.performed(shown[0].hand, scene, session.truth.templates),
         record_reproductions(model, session.commands[:1], 1.0, plan.language),
+        signimit_envs.run_episode(signimit_envs.TabletopHandEnv(), model, seed=0),
         signimit_envs.reproduce(env, policy, scene, [0, 0], 1.0), signimit_envs.reproduce_many([policy], [[0, 0]], 1.0),
         [si.make_policy(shown.paths[:2], shown.times[:2], kind) for kind in si.POLICY_KINDS],
     ]  # fmt: skip

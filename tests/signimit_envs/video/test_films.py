@@ -73,7 +73,7 @@ def test_the_card_tells_what_the_model_understood(result: SessionResult) -> None
     assert len(cards) == CARD_FRAMES
     assert f"The demonstrator knows {len(result.model.movements)} movements:" in cards[0]
     members = ", ".join(str(t + 1) for t in result.model.movements[0].members)
-    assert f"    movement 1, in demonstrations {members}" in cards[0]
+    assert f"    {result.model.names.movement(0)}, in demonstrations {members}" in cards[0]
 
 
 def test_a_sign_grows_as_it_is_drawn_and_a_dot_marks_the_pen() -> None:

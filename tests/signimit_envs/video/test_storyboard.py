@@ -9,6 +9,7 @@ import pytest
 
 pytest.importorskip("mujoco", reason="films need the simulator")
 
+from signimit import Names
 from signimit.inference import WordOrder
 from signimit_envs.video.storyboard import show_card
 
@@ -20,7 +21,7 @@ from signimit_envs.video.storyboard import show_card
 def test_the_card_names_the_demonstrations_of_each_movement_and_of_none(labels: list[int], told: list[str]) -> None:
     found = np.array(labels)
     movements = [SimpleNamespace(members=tuple(np.flatnonzero(found == m).tolist())) for m in range(2)]
-    model = SimpleNamespace(labels=found, movements=movements, word_order=WordOrder(0, 1))
+    model = SimpleNamespace(labels=found, movements=movements, word_order=WordOrder(0, 1), names=Names())
     card = next(show_card(SimpleNamespace(model=model))).card  # type: ignore[arg-type]
     first = ", ".join(str(t + 1) for t in movements[0].members)
     assert list(card[3:-3]) == [
