@@ -34,11 +34,12 @@ from signimit_envs.recording.formats.lerobot.recordings import read_lerobot_reco
 from signimit_envs.recording.formats.minari_demonstrations import read_minari_demonstrations
 from signimit_envs.recording.formats.minari_recordings import read_minari_recording
 from signimit_envs.recording.replay import find_divergence, observe_states
-from signimit_envs.robustness import samples
+from signimit_envs.robustness import samples, studio_samples
 from signimit_envs.studio.page.exports import import_bytes, to_library
 from signimit_envs.studio.page.prompts import get_language
 from signimit_envs.studio.page.views import track_json
-from signimit_envs.studio.store.events import DrawnDemonstration, event_to_json
+from signimit_envs.studio.store.event_json import event_to_json
+from signimit_envs.studio.store.events import DrawnDemonstration
 from signimit_envs.studio.store.history import History
 from signimit_envs.studio.store.sessions import SessionStore
 
@@ -163,7 +164,7 @@ def session_in(folder: Path) -> tuple[History, list[Any]]:
     """Read the session in a studio's folder, with its track."""
     with closing(SessionStore(folder)) as store:
         _ = store.listed()
-        return store.read(samples.SESSION), store.read_track(samples.SESSION, 0)
+        return store.read(studio_samples.SESSION), store.read_track(studio_samples.SESSION, 0)
 
 
 def use_journal(read: tuple[History, list[Any]]) -> None:
@@ -248,9 +249,11 @@ LOADERS = {
         samples.write_lerobot_recording_folder, read_lerobot_recording, use_recording, slow=True
     ),
     "signimit_envs.studio.store.sessions.SessionStore.read": Loader(
-        samples.write_studio_session, session_in, use_journal
+        studio_samples.write_studio_session, session_in, use_journal
     ),
-    "signimit_envs.studio.page.exports.import_bytes": Loader(samples.write_studio_exports, imported_from, use_import),
+    "signimit_envs.studio.page.exports.import_bytes": Loader(
+        studio_samples.write_studio_exports, imported_from, use_import
+    ),
 }
 """Loaders by their full names."""
 

@@ -27,26 +27,7 @@ from signimit.io.formats import write_csv_demonstrations, write_inkml
 from signimit.policies import POLICY_KINDS
 from signimit_envs.recording import EpisodeRecorder, Recording, save_recording
 from signimit_envs.recording.formats import write_data
-from signimit_envs.studio.page.exports import FORMATS as STUDIO_FORMATS
-from signimit_envs.studio.page.exports import Lesson
-from signimit_envs.studio.store.events import (
-    Asked,
-    Created,
-    Deleted,
-    Demonstrated,
-    Drafted,
-    DrawnDemonstration,
-    Insisted,
-    Judged,
-    Named,
-    Redone,
-    Redrawn,
-    Titled,
-    Undone,
-)
-from signimit_envs.studio.store.sessions import SessionStore
 
-SESSION = "20260102-030405-0123abcd"  # a studio's name for one
 ENTRY = "chance"  # of the benchmark, for results
 MINARI_ROOT = "MINARI_DATASETS_PATH"
 _UNIPEN = """.HIERARCHY DIGIT
@@ -246,48 +227,6 @@ def write_stroke_files(folder: Path) -> Iterator[Path]:
     for write in (write_unipen_file, write_dollar_file, write_strokes):
         list(write(folder / "all"))
     yield folder / "all"
-
-
-def drawn_demonstrations() -> tuple[DrawnDemonstration, ...]:
-    """Return demonstrations as the studio keeps them."""
-    clock = [0.0, 0.01, 0.02, 0.03]
-    return tuple(
-        DrawnDemonstration(
-            tuple(Stroke(sign, np.array(clock[: len(sign)])) for sign in one.signs),
-            one.objects,
-            Stroke(one.hand, one.times),
-        )
-        for one in small_demonstrations()
-    )
-
-
-def write_studio_session(folder: Path) -> Iterator[Path]:
-    """Write the journal of a studio's session with events of all kinds, and a track of the arm."""
-    shown = drawn_demonstrations()
-    with closing(SessionStore(folder / "studio")) as store:
-        session = store.create(Created("é", "2026-01-02T03:04:05", "free", 2, 3))
-        signs = shown[0].signs
-        events = (
-            *(Demonstrated(shown[:2]), Demonstrated(shown[2:]), Redrawn(1, shown[0]), Deleted(3), Undone(), Redone()),
-            *(Drafted(None, {"sign 1": signs, "hand": ()}), Drafted(1, {"question": signs}), Titled("second")),
-            *(Asked(signs, 0, 1, 0.25, None, True, "wave"), Insisted(0), Judged(0, True), Judged(0, None)),
-            Named(0, "wave"),
-        )
-        for event in events:
-            store.append(session, event)
-        track = {"first": 0, "rate": 50, "path": [[0.0, 0.0], [0.01, 0.0]], "objects": [[[0.1, 0.1]], [[0.1, 0.1]]]}
-        store.append_track(session, 0, track)
-    (folder / "studio" / session).rename(folder / "studio" / SESSION)
-    yield folder / "studio"
-
-
-def write_studio_exports(folder: Path) -> Iterator[Path]:
-    """Write demonstrations in each format that the studio exports and imports."""
-    for name, known in STUDIO_FORMATS.items():
-        shown = drawn_demonstrations()
-        model = learn(DemonstrationSet(one.demonstration for one in shown))
-        known.write(Lesson(shown, None, model), folder / name)
-        yield folder / name
 
 
 def write_results(folder: Path) -> Iterator[Path]:

@@ -36,6 +36,7 @@ def test_every_module_is_a_command() -> None:
         "command-line",
         "options",
         "plain-help",
+        "checker-tables",
         "result-tables",
         "fuzz-files",
         "fuzz-studio",

@@ -13,7 +13,8 @@ from signimit_envs.studio.open_session import OpenSession
 from signimit_envs.studio.page.belief import movement_names, sign_json, understood_text
 from signimit_envs.studio.page.built_in_people import examples
 from signimit_envs.studio.page.prompts import get_language, next_request, prompt_text, sign_labels
-from signimit_envs.studio.store.events import DrawnDemonstration, stroke_to_json
+from signimit_envs.studio.store.event_json import stroke_to_json
+from signimit_envs.studio.store.events import DrawnDemonstration
 from signimit_envs.studio.store.history import Answer
 
 

@@ -15,7 +15,8 @@ from signimit.exceptions import FileFormatError, InvalidInputError, SignimitErro
 from signimit.io.safe_files import append_record, read_records
 from signimit.validation import LARGEST, finite_array
 from signimit_envs.studio.limits import LIMITS
-from signimit_envs.studio.store.events import Created, Event, event_from_json, event_to_json
+from signimit_envs.studio.store.event_json import event_from_json, event_to_json
+from signimit_envs.studio.store.events import Created, Event
 from signimit_envs.studio.store.history import History, replay_events
 
 ID_PATTERN = r"^[0-9]{8}-[0-9]{6}-[0-9a-f]{8}$"

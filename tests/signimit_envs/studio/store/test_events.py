@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from signimit import InvalidInputError
 from signimit.strokes import Stroke
 from signimit.teaching.languages import Request
+from signimit_envs.studio.store.event_json import event_from_json, event_to_json
 from signimit_envs.studio.store.events import (
     Asked,
     Created,
@@ -28,8 +29,6 @@ from signimit_envs.studio.store.events import (
     Redrawn,
     Titled,
     Undone,
-    event_from_json,
-    event_to_json,
 )
 
 WORDS = st.sampled_from(["", "asked", "demonstrated", "deleted", "points", "times", "hand", "objects", "\0"])

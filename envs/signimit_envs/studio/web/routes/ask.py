@@ -13,7 +13,8 @@ from signimit.exceptions import InvalidInputError
 from signimit_envs.studio.arm.viewers import Viewer
 from signimit_envs.studio.limits import LIMITS
 from signimit_envs.studio.page.views import answer_json, session_json, track_json
-from signimit_envs.studio.store.events import Judged, stroke_to_json
+from signimit_envs.studio.store.event_json import stroke_to_json
+from signimit_envs.studio.store.events import Judged
 from signimit_envs.studio.studio import Studio
 from signimit_envs.studio.web.guard import Bucket
 from signimit_envs.studio.web.messages import (

@@ -14,6 +14,7 @@ from signimit_envs.studio.open_session import NotFoundError, OpenSession
 from signimit_envs.studio.page.built_in_people import draw_answer, draw_utterance
 from signimit_envs.studio.page.prompts import get_language, next_request
 from signimit_envs.studio.page.views import demonstration_json, session_json
+from signimit_envs.studio.store.event_json import stroke_to_json
 from signimit_envs.studio.store.events import (
     Deleted,
     Demonstrated,
@@ -24,7 +25,6 @@ from signimit_envs.studio.store.events import (
     Redrawn,
     Titled,
     Undone,
-    stroke_to_json,
 )
 from signimit_envs.studio.studio import Studio
 from signimit_envs.studio.web.messages import (
