@@ -81,9 +81,10 @@ def draw_card(size: tuple[int, int], lines: Sequence[str]) -> NDArray[np.uint8]:
     image = Image.new("RGB", size, PAPER)
     draw = ImageDraw.Draw(image)
     step = min(40, (size[1] - 80) // max(1, len(lines)))
+    longest = max(lines[1:], key=font(23).getlength, default="")
+    letters = fitting_font(longest, size[0] - 120, 23)  # one size for all lines under the heading
     for number, line in enumerate(lines):
-        letters = fitting_font(line, size[0] - 120, 27 if number == 0 else 23)
-        draw.text((60, 50 + number * step), line, INK, letters)
+        draw.text((60, 50 + number * step), line, INK, letters if number else fitting_font(line, size[0] - 120, 27))
     return np.asarray(image)
 
 
